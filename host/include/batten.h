@@ -1,0 +1,511 @@
+/*
+ * batten: fairs ship hulls in bulk.
+ *
+ * The whole public interface. Frame inside: origin at the aft perpendicular on the baseline,
+ * x forward, y to port, z up; metres; a hull is stored as its half, y >= 0. Other frames and units
+ * are converted where a file is read or written, never inside.
+ *
+ * Rules that hold for every declaration below
+ *   - A function that can fail returns batten_status and leaves its outputs untouched (pointers
+ *     NULL) when it does; batten_context_error() then gives one line that says what was wrong.
+ *   - Input arrays are borrowed for the call only. What a function creates, the caller destroys;
+ *     destroying NULL is allowed.
+ *   - Option structs are filled by their _default() function first, then changed.
+ *   - One context is used by one thread at a time; different contexts are independent.
+ *
+ * Sources: "thesis" is E. Narli, Computer Aided Fairing of Ship Hull Forms (ITU 1999); "Letcher" is
+ * J. S. Letcher, The Geometry of Ships (SNAME 2009).
+ */
+#ifndef BATTEN_H
+#define BATTEN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define BATTEN_API __attribute__((visibility("default")))
+#else
+#define BATTEN_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------------------------------------
+ * Status
+ * --------------------------------------------------------------------------------------------- */
+
+/* Every status, its number and the exit code of the program that goes with it. */
+#define BATTEN_STATUS_LIST(X)                                                                      \
+	X(OK, 0, 0, "done")                                                                            \
+	X(INCOMPLETE, 1, 1, "done, but some hulls failed or did not converge")                         \
+	X(USAGE, 2, 2, "an argument is out of its range")                                              \
+	X(INPUT, 3, 3, "the input is invalid")                                                         \
+	X(DEVICE, 4, 4, "the device asked for is absent or lost")                                      \
+	X(KERNEL, 5, 5, "a kernel did not build or failed its self-test")                              \
+	X(IO, 6, 6, "input/output error")                                                              \
+	X(MISSING, 7, 6, "a required package is missing")                                              \
+	X(INTERNAL, 70, 70, "internal error")                                                          \
+	X(MEMORY, 71, 70, "out of memory")                                                             \
+	X(INTERRUPTED, 75, 75, "interrupted")
+
+typedef enum batten_status {
+#define BATTEN_STATUS_ENTRY(name, number, exit_code, text) BATTEN_##name = (number),
+	BATTEN_STATUS_LIST(BATTEN_STATUS_ENTRY)
+#undef BATTEN_STATUS_ENTRY
+} batten_status;
+
+/* One line of English for a status; never NULL. */
+BATTEN_API const char *batten_status_text(batten_status status);
+
+/* The exit code a program should end with for a status. */
+BATTEN_API int batten_status_exit_code(batten_status status);
+
+/* "MAJOR.MINOR.PATCH" of the library that is linked in. */
+BATTEN_API const char *batten_version(void);
+
+/* ------------------------------------------------------------------------------------------------
+ * Context: allocator, log, last error, threads
+ * --------------------------------------------------------------------------------------------- */
+
+typedef struct batten_context batten_context;
+
+typedef enum batten_log_level {
+	BATTEN_LOG_ERROR,
+	BATTEN_LOG_WARNING,
+	BATTEN_LOG_INFORMATION,
+} batten_log_level;
+
+typedef struct batten_context_options {
+	size_t struct_size; /* set by batten_context_options_default() */
+	/* Memory; NULL takes malloc and free. allocate may return NULL. Called from any thread. */
+	void *(*allocate)(size_t size, void *user);
+	void (*release)(void *memory, void *user);
+	void *allocate_user;
+	/* Talk: called with one line without a newline; NULL is silent. */
+	void (*log)(batten_log_level level, const char *line, void *user);
+	void *log_user;
+	/* Threads of the plain C path and of CPU devices; 0 takes the affinity mask of the process, or
+	 * SLURM_CPUS_PER_TASK where that is set. Range 0..4096. */
+	unsigned threads;
+	/* Most bytes one batch may take on the host; 0 sets no limit. */
+	size_t max_memory;
+	/* Folder for compiled kernels; NULL takes $XDG_CACHE_HOME/batten or ~/.cache/batten. When it
+	 * cannot be written, a private folder under $TMPDIR is used. */
+	const char *cache_directory;
+} batten_context_options;
+
+BATTEN_API void batten_context_options_default(batten_context_options *options);
+
+/* options may be NULL. Errors: USAGE, MEMORY. */
+BATTEN_API batten_status batten_context_create(const batten_context_options *options,
+                                               batten_context **out);
+BATTEN_API void batten_context_destroy(batten_context *context);
+
+/* The message of the last failure in this context: one line, "" before the first. Valid until the
+ * next failure. */
+BATTEN_API const char *batten_context_error(const batten_context *context);
+
+/* ------------------------------------------------------------------------------------------------
+ * Hulls: an offset table over stations (x) and waterlines (z)
+ * --------------------------------------------------------------------------------------------- */
+
+typedef struct batten_hull batten_hull;
+
+/* What a node of the table is. */
+typedef enum batten_node {
+	BATTEN_NODE_OUTSIDE = 0, /* not on the hull: an empty cell */
+	BATTEN_NODE_GIVEN = 1,   /* a half-breadth; 0 is a profile point (keel, stem, stern) */
+	BATTEN_NODE_UNKNOWN = 2, /* on the hull, half-breadth not given: a cell '?'. Filled by a natural
+	                            cubic spline along its waterline (along its section where the
+	                            waterline has fewer than two given points), written as '?' again */
+} batten_node;
+
+/* Reads an offsets file (data/README.md describes the format). Errors: IO, INPUT (naming file, line,
+ * column, what was found and what was expected), MEMORY. */
+BATTEN_API batten_status batten_hull_read(batten_context *context, const char *path,
+                                          batten_hull **out);
+
+/* Same, from memory; name stands for the file in messages. */
+BATTEN_API batten_status batten_hull_parse(batten_context *context, const char *name,
+                                           const char *text, size_t length, batten_hull **out);
+
+/* Makes a hull from arrays, in the frame ap-fwd and metres. x, z ascending and finite, 2..4096 each;
+ * y and nodes are waterline-major: index waterline * station_count + station; y >= 0 and finite where
+ * given, read nowhere else. nodes may be NULL: all given. lbp, draft > 0.
+ * Errors: USAGE, MEMORY. */
+typedef struct batten_hull_table {
+	const char *name;
+	double lbp_m, draft_m;
+	size_t station_count, waterline_count;
+	const double *x_m, *z_m, *y_m;
+	const uint8_t *nodes;
+} batten_hull_table;
+BATTEN_API batten_status batten_hull_create(batten_context *context, const batten_hull_table *table,
+                                            batten_hull **out);
+
+/* Writes the hull in the layout, frame and unit it was read in. The file is replaced at once or not
+ * at all. Errors: IO, MEMORY. */
+BATTEN_API batten_status batten_hull_write(batten_context *context, const batten_hull *hull,
+                                           const char *path);
+
+BATTEN_API batten_status batten_hull_clone(batten_context *context, const batten_hull *hull,
+                                           batten_hull **out);
+BATTEN_API void batten_hull_destroy(batten_hull *hull);
+
+/* Borrowed views, valid while the hull lives and is not written to. */
+BATTEN_API const char *batten_hull_name(const batten_hull *hull);
+BATTEN_API const char *batten_hull_source(const batten_hull *hull); /* "" when the file has none */
+BATTEN_API const char *batten_hull_unit(const batten_hull *hull);   /* "m", "mm" or "ft" */
+BATTEN_API const char *batten_hull_frame(const batten_hull *hull);  /* "ap-fwd", ... */
+BATTEN_API const char *batten_hull_layout(const batten_hull *hull); /* "grid" or "long" */
+BATTEN_API double batten_hull_lbp_m(const batten_hull *hull);
+BATTEN_API double batten_hull_draft_m(const batten_hull *hull);
+BATTEN_API size_t batten_hull_station_count(const batten_hull *hull);
+BATTEN_API size_t batten_hull_waterline_count(const batten_hull *hull);
+BATTEN_API const double *batten_hull_x_m(const batten_hull *hull); /* [stations] */
+BATTEN_API const double *batten_hull_z_m(const batten_hull *hull); /* [waterlines] */
+BATTEN_API const double *batten_hull_y_m(const batten_hull *hull); /* [waterlines][stations] */
+BATTEN_API const uint8_t *batten_hull_nodes(const batten_hull *hull); /* batten_node, as y */
+
+/* Largest half-breadth of the table, line ends included (m): the h of all dimensionless figures. */
+BATTEN_API double batten_hull_half_beam_m(const batten_hull *hull);
+
+/* A place given in the frame and unit of the hull's file, as x and z inside. */
+BATTEN_API void batten_hull_place(const batten_hull *hull, double file_x, double file_z, double *x_m,
+                                  double *z_m);
+
+/* Replaces the half-breadths of all nodes that are not outside. y_m as batten_hull_y_m().
+ * Errors: USAGE (a negative or non-finite half-breadth). */
+BATTEN_API batten_status batten_hull_set_y(batten_context *context, batten_hull *hull,
+                                           const double *y_m);
+
+/* ------------------------------------------------------------------------------------------------
+ * Measures
+ * --------------------------------------------------------------------------------------------- */
+
+typedef enum batten_quadrature {
+	BATTEN_QUADRATURE_SPLINE,    /* not-a-knot spline in z, natural spline in x */
+	BATTEN_QUADRATURE_SIMPSON,   /* even number of equal intervals in both directions, else INPUT */
+	BATTEN_QUADRATURE_TRAPEZOID, /* sums of trapezoids */
+} batten_quadrature;
+
+typedef struct batten_measure_options {
+	size_t struct_size;
+	double draft_m; /* 0 takes the hull's own */
+	batten_quadrature quadrature;
+	double density_t_per_m3; /* 1.025 */
+} batten_measure_options;
+BATTEN_API void batten_measure_options_default(batten_measure_options *options);
+
+/* Every measure: its name, which carries unit and sign, and what it is. A measure that does not exist
+ * for a hull is NaN (null in JSON). L of the coefficients is lbp_m, B is beam_wl_m.
+ * Definitions: Letcher 9-11; fairness: thesis 4.4, 5 and 7. */
+#define BATTEN_MEASURE_LIST(X)                                                                     \
+	X(lbp_m, "length between perpendiculars")                                                      \
+	X(lwl_m, "length of the waterline at the draft")                                               \
+	X(beam_wl_m, "largest breadth of the waterline at the draft")                                  \
+	X(beam_max_m, "largest breadth of the table")                                                  \
+	X(draft_m, "draft")                                                                            \
+	X(half_beam_m, "largest half-breadth of the table, h")                                         \
+	X(volume_m3, "moulded volume up to the draft")                                                 \
+	X(displacement_t, "mass of the displaced water")                                               \
+	X(wetted_surface_m2, "wetted surface, both sides, transom left out")                           \
+	X(waterplane_area_m2, "area of the waterplane")                                                \
+	X(midship_area_m2, "immersed section area amidships")                                          \
+	X(max_section_area_m2, "largest immersed section area of the stations")                        \
+	X(cb, "block coefficient, volume / (L B T)")                                                   \
+	X(cp, "prismatic coefficient, volume / (L midship area)")                                      \
+	X(cm, "midship coefficient, midship area / (B T)")                                             \
+	X(cwp, "waterplane coefficient, waterplane area / (L B)")                                      \
+	X(cv, "volumetric coefficient, 1000 volume / L^3")                                             \
+	X(cws, "wetted surface / sqrt(volume L)")                                                      \
+	X(lcb_pct_lbp_fwd, "centre of buoyancy from amidships, percent of LBP, + forward")             \
+	X(xcb_from_ap_m, "centre of buoyancy from the aft perpendicular, + forward")                   \
+	X(lcf_pct_lbp_fwd, "centre of flotation from amidships, percent of LBP, + forward")            \
+	X(xcf_from_ap_m, "centre of flotation from the aft perpendicular, + forward")                  \
+	X(kb_m, "centre of buoyancy above the baseline")                                               \
+	X(bmt_m, "transverse metacentric radius")                                                      \
+	X(bml_m, "longitudinal metacentric radius")                                                    \
+	X(kmt_m, "transverse metacentre above the baseline")                                           \
+	X(kml_m, "longitudinal metacentre above the baseline")                                         \
+	X(i_t_m4, "transverse second moment of the waterplane")                                        \
+	X(i_l_m4, "longitudinal second moment of the waterplane about its centre")                     \
+	X(tpc_t_per_cm, "tonnes per centimetre immersion")                                             \
+	X(fn_per_m2, "fairness number: sum of squared second derivatives over all waterlines")         \
+	X(fn_sections_per_m2, "the same over all sections")                                            \
+	X(energy_bending, "sum of (k1^2 + k2^2) dS over the nodes inside the hull")                    \
+	X(energy_mean, "sum of H^2 dS")                                                                \
+	X(energy_gauss, "sum of |K| dS")                                                               \
+	X(noise_m, "robust estimate of the noise of the offsets")                                      \
+	X(inflections, "sign changes of the second derivative over all waterlines and sections")
+
+typedef struct batten_measures {
+#define BATTEN_MEASURE_FIELD(name, text) double name;
+	BATTEN_MEASURE_LIST(BATTEN_MEASURE_FIELD)
+#undef BATTEN_MEASURE_FIELD
+} batten_measures;
+
+enum { BATTEN_MEASURE_COUNT = (int)(sizeof(batten_measures) / sizeof(double)) };
+
+/* Name and meaning of measure number i (0..BATTEN_MEASURE_COUNT-1, the order of the struct); NULL
+ * beyond. */
+BATTEN_API const char *batten_measure_name(size_t i);
+BATTEN_API const char *batten_measure_text(size_t i);
+
+/* options may be NULL. Errors: USAGE (draft outside the table), INPUT (a rule whose conditions do not
+ * hold), MEMORY. */
+BATTEN_API batten_status batten_hull_measure(batten_context *context, const batten_hull *hull,
+                                             const batten_measure_options *options,
+                                             batten_measures *out);
+
+/* How one hull differs from the one it was faired from, both on the same table. */
+typedef struct batten_closeness {
+	double cn_pct;       /* 100 max |y - y0| / h, h of the reference */
+	double cn_max_m;     /* max |y - y0| */
+	double cn_rms_m;     /* root of the mean of (y - y0)^2 over the nodes given and > 0 in either */
+	double closeness_m4; /* sum of (y - y0)^2 dx dz */
+} batten_closeness;
+BATTEN_API batten_status batten_hull_closeness(batten_context *context, const batten_hull *hull,
+                                               const batten_hull *reference, batten_closeness *out);
+
+/* One line of a hull and how fair it is. */
+typedef enum batten_line_kind {
+	BATTEN_LINE_STATION,   /* y against z at one x */
+	BATTEN_LINE_WATERLINE, /* y against x at one z */
+	BATTEN_LINE_BUTTOCK,   /* z against x at one y */
+	BATTEN_LINE_DIAGONAL,  /* distance along a 45-degree plane against x; the coordinate is the
+	                          height where the plane meets the centreplane */
+} batten_line_kind;
+typedef struct batten_line {
+	batten_line_kind kind;
+	double coordinate_m;
+	size_t point_count;
+	double fn_per_m2;    /* NaN below three points */
+	size_t inflections;
+	double change_max_m; /* against the reference; 0 without one */
+} batten_line;
+
+/* All stations, waterlines, and for each waterline height up to the half-beam one buttock at
+ * y = that fraction of h, and one diagonal. lines is the caller's, capacity entries long; *count gets
+ * the number there are (call with capacity 0 to ask). reference may be NULL. Errors: USAGE, MEMORY. */
+BATTEN_API batten_status batten_hull_lines(batten_context *context, const batten_hull *hull,
+                                           const batten_hull *reference, batten_line *lines,
+                                           size_t capacity, size_t *count);
+
+/* ------------------------------------------------------------------------------------------------
+ * Devices
+ * --------------------------------------------------------------------------------------------- */
+
+#define BATTEN_DEVICE_AUTO (-1)      /* every device that equals the C path bit for bit, else C */
+#define BATTEN_DEVICE_REFERENCE (-2) /* the plain C path */
+
+typedef enum batten_precision { BATTEN_F64, BATTEN_F32 } batten_precision;
+
+typedef struct batten_device {
+	char name[128], platform[128], driver[64], version[64];
+	bool is_cpu, has_f64, has_correct_f32; /* correctly rounded division and square root */
+	unsigned compute_units;
+	uint64_t global_memory_bytes, local_memory_bytes, max_allocation_bytes;
+	unsigned max_work_group;
+} batten_device;
+
+/* Number of OpenCL devices; 0 without any OpenCL (never an error: *reason then says why, valid as
+ * batten_context_error() is; reason may be NULL). */
+BATTEN_API size_t batten_device_count(batten_context *context, const char **reason);
+
+/* Errors: DEVICE (no such index). */
+BATTEN_API batten_status batten_device_describe(batten_context *context, size_t index,
+                                                batten_device *out);
+
+typedef enum batten_selftest_result {
+	BATTEN_SELFTEST_EQUAL,     /* bit for bit as the C path */
+	BATTEN_SELFTEST_DIFFERENT, /* runs, with other last bits */
+	BATTEN_SELFTEST_FAILED,    /* wrong, or does not build or run */
+	BATTEN_SELFTEST_ABSENT,    /* the device has no such precision */
+} batten_selftest_result;
+
+typedef struct batten_selftest {
+	char kernel[32];
+	batten_precision precision;
+	batten_selftest_result result;
+	size_t compared, different; /* numbers compared with the C path, and how many differ in any bit */
+	double build_s, run_s;
+	char message[256]; /* one line when it failed */
+} batten_selftest;
+
+/* Runs every kernel on a small known problem against the C path. results is the caller's, capacity
+ * entries long; *count gets the number of tests. Errors: DEVICE, MEMORY. */
+BATTEN_API batten_status batten_device_selftest(batten_context *context, size_t index,
+                                                batten_selftest *results, size_t capacity,
+                                                size_t *count);
+
+/* ------------------------------------------------------------------------------------------------
+ * The pattern search, many at a time
+ * --------------------------------------------------------------------------------------------- */
+
+/* The grid all searches of a batch share: coordinates ascending, 3..4096 each. */
+typedef struct batten_grid {
+	size_t station_count, waterline_count;
+	const double *x_m, *z_m;
+} batten_grid;
+
+/* One search. All arrays are [waterlines][stations]; a node outside the hull is left alone and no
+ * stencil crosses it. Minimises
+ *     F(y) = w1 * energy_bending(y) + w2 * sum (y - target)^2 dx dz / h^4
+ * (thesis 7.1-7.2) over lower <= y <= upper; a node with lower == upper is fixed. */
+typedef struct batten_search_problem {
+	const uint8_t *nodes;  /* batten_node; NULL: all on the hull */
+	const double *start_m; /* finite; clamped into the box */
+	const double *target_m;
+	const double *lower_m, *upper_m; /* lower <= upper, finite */
+	const double *closeness_weight; /* factor of each node's closeness term, >= 0; NULL: 1 */
+	double w1, w2;                  /* dimensionless, finite, >= 0, not both 0 */
+	double half_beam_m;             /* h, > 0 */
+} batten_search_problem;
+
+typedef struct batten_search_options {
+	size_t struct_size;
+	int device;               /* an index of batten_device_count(), or AUTO, REFERENCE */
+	batten_precision precision;
+	double first_step;        /* of h: 0.02 */
+	double last_step;         /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
+	unsigned iteration_limit; /* 400 */
+	unsigned lanes;           /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
+	unsigned work_group;      /* work-items a search is shared by; 0 chooses */
+} batten_search_options;
+BATTEN_API void batten_search_options_default(batten_search_options *options);
+
+typedef enum batten_search_end {
+	BATTEN_SEARCH_CONVERGED = 0,   /* the step fell below last_step */
+	BATTEN_SEARCH_LIMIT = 1,       /* the iteration limit came first */
+	BATTEN_SEARCH_STATIONARY = 2,  /* no probe of any size improved the start */
+	BATTEN_SEARCH_REFUSED = 3,     /* invalid problem; y is not written, message says why */
+} batten_search_end;
+BATTEN_API const char *batten_search_end_text(batten_search_end end);
+
+typedef struct batten_search_result {
+	batten_search_end end;
+	unsigned iterations;
+	uint64_t probes;             /* trial values of a direction */
+	double objective_start, objective_end;
+	double last_step_m;
+	char message[96];            /* for REFUSED */
+} batten_search_result;
+
+/* What ran a batch. */
+typedef struct batten_search_run {
+	char device[128]; /* "reference" for the C path; several joined by " + " */
+	bool strict;      /* every device equals the C path bit for bit */
+	double seconds;   /* wall time of the searches, without building kernels */
+	char warning[256]; /* one line, "" when nothing is to be said */
+} batten_search_run;
+
+/* Runs count searches by the multilevel Hooke-Jeeves method (kernels/README.md). y_m is the caller's,
+ * [count][waterlines][stations]; results [count]; run may be NULL. The result of a search does not
+ * depend on the others, on their order or number, nor (when strict) on what ran it.
+ * Returns INCOMPLETE when a search was refused or met its limit. Errors: USAGE, DEVICE, KERNEL,
+ * MEMORY. */
+BATTEN_API batten_status batten_search_batch(batten_context *context, const batten_grid *grid,
+                                             size_t count, const batten_search_problem *problems,
+                                             const batten_search_options *options, double *y_m,
+                                             batten_search_result *results, batten_search_run *run);
+
+/* ------------------------------------------------------------------------------------------------
+ * Fairing a hull
+ * --------------------------------------------------------------------------------------------- */
+
+/* One gross input error found and replaced (thesis 4.5). */
+typedef struct batten_replacement {
+	size_t station, waterline;
+	double x_m, z_m, old_m, new_m;
+} batten_replacement;
+
+/* A point, a line or both where the search may not move anything. */
+typedef enum batten_lock_kind {
+	BATTEN_LOCK_STATION,   /* all of the station at x_m */
+	BATTEN_LOCK_WATERLINE, /* all of the waterline at z_m */
+	BATTEN_LOCK_POINT,     /* the offset at (x_m, z_m) */
+} batten_lock_kind;
+typedef struct batten_lock {
+	batten_lock_kind kind;
+	double x_m, z_m;
+} batten_lock;
+
+typedef struct batten_fair_options {
+	size_t struct_size;
+	batten_search_options search;
+	bool smooth;               /* replace gross errors first; true */
+	bool weights_given;        /* false: by the discrepancy principle */
+	double w1, w2;             /* used when given */
+	double max_distance_m;     /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
+	double max_distance_part;  /* of h; 0.01 */
+	const batten_lock *locks;  /* borrowed for the call */
+	size_t lock_count;
+	const batten_hull *lower, *upper; /* bounds on the same table, or NULL */
+} batten_fair_options;
+BATTEN_API void batten_fair_options_default(batten_fair_options *options);
+
+typedef struct batten_fairing batten_fairing;
+
+/* Fairs one hull: gross errors, noise, weight, search. The hull is not changed.
+ * Returns INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or bound that is
+ * not on the table), INPUT (nothing to fair), DEVICE, KERNEL, MEMORY. */
+BATTEN_API batten_status batten_hull_fair(batten_context *context, const batten_hull *hull,
+                                          const batten_fair_options *options, batten_fairing **out);
+BATTEN_API void batten_fairing_destroy(batten_fairing *fairing);
+
+/* The parts of a fairing; borrowed, valid while it lives. */
+BATTEN_API const batten_hull *batten_fairing_input(const batten_fairing *fairing);
+BATTEN_API const batten_hull *batten_fairing_smoothed(const batten_fairing *fairing);
+BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairing);
+BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
+BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
+BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
+BATTEN_API const batten_search_run *batten_fairing_run(const batten_fairing *fairing);
+
+typedef struct batten_fairing_facts {
+	double noise_m;           /* of the smoothed hull */
+	double w1, w2;            /* as used */
+	bool weights_by_noise;    /* chosen by the discrepancy principle */
+	double max_distance_m;
+	size_t variable_count;    /* offsets the search may move */
+	size_t at_limit_count;    /* of these, at a bound in the end */
+	double rms_change_m;      /* over the variables, against the smoothed hull */
+	size_t filled_count;      /* '?' cells */
+} batten_fairing_facts;
+BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
+
+/* ------------------------------------------------------------------------------------------------
+ * Pictures
+ * --------------------------------------------------------------------------------------------- */
+
+typedef struct batten_picture_options {
+	size_t struct_size;
+	unsigned width, height;  /* pixels, 64..8192; 1600 x 900 */
+	const char *title;       /* NULL takes the hull's name */
+	double scale_per_m;      /* curvature at the ends of the colour scale; 0 takes it from the hull */
+} batten_picture_options;
+BATTEN_API void batten_picture_options_default(batten_picture_options *options);
+
+/* The curvature at the ends of the colour scale that suits a hull (1/m). */
+BATTEN_API batten_status batten_picture_scale(batten_context *context, const batten_hull *hull,
+                                              double *scale_per_m);
+
+/* Curvature map of the whole hull as PNG, drawn by Vulkan. driver (128 bytes) gets the name of what
+ * drew it and may be NULL. Errors: DEVICE (no Vulkan driver), IO, MEMORY. */
+BATTEN_API batten_status batten_picture_curvature(batten_context *context, const batten_hull *hull,
+                                                  const batten_picture_options *options,
+                                                  const char *path, char *driver);
+
+/* Body plan and waterlines before (may be NULL) and after as SVG. Errors: IO, MEMORY. */
+BATTEN_API batten_status batten_picture_lines(batten_context *context, const batten_hull *before,
+                                              const batten_hull *after, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
