@@ -1,0 +1,82 @@
+#include "device/system.h"
+
+#include <inttypes.h>
+
+batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
+                                   device_buffer **out)
+{
+	uint64_t most = session->entry->facts.max_allocation_bytes;
+	if (size == 0)
+		return device_session_fail(session, BATTEN_USAGE, "a buffer of 0 bytes is asked for");
+	if (size > most)
+		return device_session_fail(session, BATTEN_MEMORY,
+		                           "%s: a buffer of %zu bytes is asked for, the most is %" PRIu64,
+		                           session->entry->facts.name, size, most);
+	device_buffer *buffer = device_session_allocate(session, 1, sizeof *buffer);
+	if (!buffer)
+		return BATTEN_MEMORY;
+	*buffer = (device_buffer){ .session = session, .size = size };
+	batten_status status = BATTEN_OK;
+	cl_int code = CL_SUCCESS;
+	buffer->memory = DEVICE_CREATE(&session->system->opencl, &code, CreateBuffer,
+	                               session->environment, CL_MEM_READ_WRITE, size, NULL);
+	if (!device_object_made(session->system, &code, buffer->memory)) {
+		buffer->memory = NULL;
+		status = device_session_fail_call(session, code, "clCreateBuffer of %zu bytes", size);
+	}
+	if (status == BATTEN_OK && initial)
+		status = device_buffer_write(buffer, size, initial);
+	if (status != BATTEN_OK) {
+		device_buffer_destroy(buffer);
+		return status;
+	}
+	*out = buffer;
+	return BATTEN_OK;
+}
+
+void device_buffer_destroy(device_buffer *buffer)
+{
+	if (!buffer)
+		return;
+	device_session *session = buffer->session;
+	if (buffer->memory) {
+		(void)session->system->opencl.ReleaseMemObject(buffer->memory);
+		device_object_released(session->system);
+	}
+	batten_release(session->context, buffer);
+}
+
+static batten_status check_size(const device_buffer *buffer, size_t size, const char *what)
+{
+	if (size > 0 && size <= buffer->size)
+		return BATTEN_OK;
+	return device_session_fail(buffer->session, BATTEN_USAGE,
+	                           "%s of %zu bytes of a buffer of %zu bytes", what, size,
+	                           buffer->size);
+}
+
+batten_status device_buffer_write(device_buffer *buffer, size_t size, const void *from)
+{
+	device_session *session = buffer->session;
+	batten_status status = check_size(buffer, size, "a write");
+	if (status != BATTEN_OK)
+		return status;
+	cl_int code = DEVICE_CALL(&session->system->opencl, EnqueueWriteBuffer, session->queue,
+	                          buffer->memory, CL_TRUE, 0, size, from, 0, NULL, NULL);
+	if (code != CL_SUCCESS)
+		return device_session_fail_call(session, code, "clEnqueueWriteBuffer of %zu bytes", size);
+	return BATTEN_OK;
+}
+
+batten_status device_buffer_read(device_buffer *buffer, size_t size, void *to)
+{
+	device_session *session = buffer->session;
+	batten_status status = check_size(buffer, size, "a read");
+	if (status != BATTEN_OK)
+		return status;
+	cl_int code = DEVICE_CALL(&session->system->opencl, EnqueueReadBuffer, session->queue,
+	                          buffer->memory, CL_TRUE, 0, size, to, 0, NULL, NULL);
+	if (code != CL_SUCCESS)
+		return device_session_fail_call(session, code, "clEnqueueReadBuffer of %zu bytes", size);
+	return BATTEN_OK;
+}
