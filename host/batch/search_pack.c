@@ -1,0 +1,139 @@
+#include "batch/search_pack.h"
+
+#include <string.h>
+
+#define BATTEN_DIALECT_C
+#define BATTEN_DOUBLE 1
+#include "shared/dialect.h"
+#include "shared/grid_energy.h"
+
+size_t search_scalar_size(const search_plan *plan)
+{
+	return plan->options.precision == BATTEN_F64 ? sizeof(double) : sizeof(float);
+}
+
+static void put(const search_plan *plan, void *numbers, size_t at, double value)
+{
+	if (plan->options.precision == BATTEN_F64)
+		((double *)numbers)[at] = value;
+	else
+		((float *)numbers)[at] = (float)value;
+}
+
+static double get(const search_plan *plan, const void *numbers, size_t at)
+{
+	if (plan->options.precision == BATTEN_F64)
+		return ((const double *)numbers)[at];
+	return (double)((const float *)numbers)[at];
+}
+
+size_t search_stencil_count(const search_plan *plan)
+{
+	return (plan->station_count + plan->waterline_count) * STENCIL_SIZE;
+}
+
+void search_pack_stencils(const search_plan *plan, void *stencils)
+{
+	const size_t along_x = plan->station_count * STENCIL_SIZE;
+	for (size_t n = 0; n < along_x; n++)
+		put(plan, stencils, n, plan->stencil_x[n]);
+	for (size_t n = 0; n < plan->waterline_count * STENCIL_SIZE; n++)
+		put(plan, stencils, along_x + n, plan->stencil_z[n]);
+}
+
+static bool on_hull(const batten_search_problem *problem, size_t node)
+{
+	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
+}
+
+/* Whether the node and its eight neighbours are all on the hull: only there has the energy a term. */
+static bool is_inside(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                      size_t k)
+{
+	const size_t stations = plan->station_count;
+	if (i == 0 || k == 0 || i + 1 == stations || k + 1 == plan->waterline_count)
+		return false;
+	for (size_t b = k - 1; b <= k + 1; b++)
+		for (size_t a = i - 1; a <= i + 1; a++)
+			if (!on_hull(problem, b * stations + a))
+				return false;
+	return true;
+}
+
+static double clamp(double value, double lower, double upper)
+{
+	return value < lower ? lower : value > upper ? upper : value;
+}
+
+static void pack_node(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                      size_t k, size_t lane, size_t lanes, void *arrays)
+{
+	const size_t node = k * plan->station_count + i;
+	const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
+	const size_t array = plan->node_count * lanes;
+	const size_t at = place * lanes + lane;
+	const double cell = plan->cell_x[i] * plan->cell_z[k];
+	const double h2 = problem->half_beam_m * problem->half_beam_m;
+	const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
+	const double lower = problem->lower_m[node];
+	const double upper = problem->upper_m[node];
+	put(plan, arrays, SEARCH_ARRAY_Y * array + at, clamp(problem->start_m[node], lower, upper));
+	put(plan, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
+	put(plan, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
+	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
+	put(plan, arrays, SEARCH_ARRAY_CLOSE * array + at, problem->w2 * weight * cell / (h2 * h2));
+	if (is_inside(plan, problem, i, k))
+		put(plan, arrays, SEARCH_ARRAY_BEND * array + at, problem->w1 * cell);
+}
+
+void search_pack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
+                 size_t lanes, void *arrays, void *settings)
+{
+	for (size_t k = 0; k < plan->waterline_count; k++)
+		for (size_t i = 0; i < plan->station_count; i++)
+			if (on_hull(problem, k * plan->station_count + i))
+				pack_node(plan, problem, i, k, lane, lanes, arrays);
+	put(plan, settings, SEARCH_SETTING_FIRST_STEP * lanes + lane,
+	    plan->options.first_step * problem->half_beam_m);
+	put(plan, settings, SEARCH_SETTING_LAST_STEP * lanes + lane,
+	    plan->options.last_step * problem->half_beam_m);
+}
+
+static batten_search_end end_of(double moves, double step, double last_step)
+{
+	if (step > last_step)
+		return BATTEN_SEARCH_LIMIT;
+	return moves == 0.0 ? BATTEN_SEARCH_STATIONARY : BATTEN_SEARCH_CONVERGED;
+}
+
+void search_unpack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
+                   size_t lanes, const void *y, const void *outcome, double *y_m,
+                   batten_search_result *result)
+{
+	for (size_t k = 0; k < plan->waterline_count; k++)
+		for (size_t i = 0; i < plan->station_count; i++) {
+			const size_t node = k * plan->station_count + i;
+			const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
+			const bool moves = on_hull(problem, node) &&
+			                   problem->lower_m[node] < problem->upper_m[node];
+			/* A fixed node comes back as it went in, not rounded to f32. */
+			y_m[node] = !on_hull(problem, node) ? problem->start_m[node]
+			            : moves ? clamp(get(plan, y, place * lanes + lane), problem->lower_m[node],
+			                            problem->upper_m[node])
+			                    : problem->lower_m[node];
+		}
+	double values[SEARCH_OUTCOME_COUNT];
+	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
+		values[v] = get(plan, outcome, v * lanes + lane);
+	const double last_step = plan->options.last_step * problem->half_beam_m;
+	const double compared = plan->options.precision == BATTEN_F64 ? last_step
+	                                                               : (double)(float)last_step;
+	result->end = end_of(values[SEARCH_OUTCOME_MOVES], values[SEARCH_OUTCOME_STEP], compared);
+	result->iterations = (unsigned)values[SEARCH_OUTCOME_ITERATIONS];
+	result->probes = ((uint64_t)values[SEARCH_OUTCOME_EXTRA_HIGH] << 20) +
+	                 (uint64_t)values[SEARCH_OUTCOME_EXTRA_LOW];
+	result->objective_start = values[SEARCH_OUTCOME_START];
+	result->objective_end = values[SEARCH_OUTCOME_END];
+	result->last_step_m = values[SEARCH_OUTCOME_STEP];
+	result->message[0] = '\0';
+}

@@ -1,0 +1,25 @@
+/* Searches packed lane by lane, in the precision of the plan: what a device or the C path reads and
+ * writes. Value v of lane l is number v * lanes + l. */
+#ifndef BATTEN_BATCH_SEARCH_PACK_H
+#define BATTEN_BATCH_SEARCH_PACK_H
+
+#include "batch/search_plan.h"
+
+/* Bytes of one number in the precision of the plan. */
+size_t search_scalar_size(const search_plan *plan);
+
+/* Stencils of the stations, then of the waterlines, in the precision of the plan. */
+size_t search_stencil_count(const search_plan *plan);
+void search_pack_stencils(const search_plan *plan, void *stencils);
+
+/* Writes a problem into lane `lane` of arrays[SEARCH_ARRAY_COUNT][node_count][lanes] and
+ * settings[SEARCH_SETTING_COUNT][lanes], all zero before. A lane left at zero is idle. */
+void search_pack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
+                 size_t lanes, void *arrays, void *settings);
+
+/* Takes a lane's end: y_m of the nodes on the hull (the others get the start) and the result. */
+void search_unpack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
+                   size_t lanes, const void *y, const void *outcome, double *y_m,
+                   batten_search_result *result);
+
+#endif

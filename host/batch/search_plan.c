@@ -1,0 +1,340 @@
+#include "batch/search_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BATTEN_DIALECT_C
+#define BATTEN_DOUBLE 1
+#include "shared/dialect.h"
+#include "shared/grid_energy.h"
+
+enum { COORDINATE_LIMIT = 4096, F32_NODE_LIMIT = 1 << 22 };
+
+/* Half the sum of the spacings to both neighbours; half a spacing at the ends. */
+static double cell_of(const double *at, size_t count, size_t i)
+{
+	double below = i > 0 ? at[i] - at[i - 1] : 0.0;
+	double above = i + 1 < count ? at[i + 1] - at[i] : 0.0;
+	return 0.5 * (below + above);
+}
+
+static void lay_out_direction(const double *at, size_t count, double *stencil, double *cell)
+{
+	for (size_t i = 0; i < count; i++) {
+		cell[i] = cell_of(at, count, i);
+		if (i == 0 || i + 1 == count)
+			continue; /* no term of the energy there; weights stay 0 */
+		double below = at[i] - at[i - 1];
+		double above = at[i + 1] - at[i];
+		double *w = stencil + i * STENCIL_SIZE;
+		w[0] = above / (below * (below + above));
+		w[1] = below / (above * (below + above));
+		w[2] = 2.0 / (below * (below + above));
+		w[3] = 2.0 / (above * (below + above));
+	}
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+	double left = *(const double *)a;
+	double right = *(const double *)b;
+	return (left > right) - (left < right);
+}
+
+/* The median spacing stands for a direction whose spacing is uneven. */
+static batten_status typical_spacing(batten_context *context, const double *at, size_t count,
+                                     double *spacing)
+{
+	double *steps = batten_allocate(context, count, sizeof *steps);
+	if (!steps)
+		return BATTEN_MEMORY;
+	for (size_t i = 0; i + 1 < count; i++)
+		steps[i] = at[i + 1] - at[i];
+	qsort(steps, count - 1, sizeof *steps, compare_numbers);
+	*spacing = steps[(count - 1) / 2];
+	batten_release(context, steps);
+	return BATTEN_OK;
+}
+
+/* The largest power of two that is neither above wanted nor above half the direction's intervals. */
+static int hat_width(double wanted, size_t count)
+{
+	int width = 1;
+	while (2.0 * width <= wanted && 2 * (size_t)width <= (count - 1) / 2)
+		width *= 2;
+	return width;
+}
+
+/* Hats grow in physical width, not in nodes: the energy couples neighbours strongly only along the
+ * finer direction, and widening the other with it converges several times slower. */
+static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
+{
+	const double finest = fmin(spacing_x, spacing_z) * (1.0 + 1e-9);
+	for (int l = 0; l < SEARCH_LEVEL_LIMIT; l++) {
+		const double width = ldexp(finest, l);
+		const search_level level = { .width_x = hat_width(width / spacing_x, plan->station_count),
+			                         .width_z = hat_width(width / spacing_z, plan->waterline_count) };
+		const search_level *before = l > 0 ? &plan->levels[l - 1] : NULL;
+		if (before && level.width_x == before->width_x && level.width_z == before->width_z)
+			break;
+		plan->levels[plan->level_count++] = level;
+	}
+}
+
+static bool can_move(const batten_search_problem *problem, size_t node)
+{
+	return (!problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE) &&
+	       problem->lower_m[node] < problem->upper_m[node];
+}
+
+/* Whether a node under the hat is marked in movable. */
+static bool direction_moves(const search_plan *plan, const uint8_t *movable,
+                            const search_level *level, int station, int waterline)
+{
+	for (int k = waterline - level->width_z + 1; k < waterline + level->width_z; k++)
+		for (int i = station - level->width_x + 1; i < station + level->width_x; i++)
+			if (k >= 0 && k < (int)plan->waterline_count && i >= 0 &&
+			    i < (int)plan->station_count &&
+			    movable[(size_t)k * plan->station_count + (size_t)i])
+				return true;
+	return false;
+}
+
+static size_t centre_count(size_t count, int width)
+{
+	return (count - 1 + (size_t)width - 1) / (size_t)width + 1;
+}
+
+/* Appends the directions of one level and colour; with centres NULL only counts them. */
+static size_t add_colour(const search_plan *plan, const search_level *level, size_t colour,
+                         const uint8_t *movable, int32_t *centres)
+{
+	const size_t along_x = centre_count(plan->station_count, level->width_x);
+	const size_t along_z = centre_count(plan->waterline_count, level->width_z);
+	size_t added = 0;
+	for (size_t b = colour / 3; b < along_z; b += 3)
+		for (size_t a = colour % 3; a < along_x; a += 3) {
+			const int station = (int)a * level->width_x;
+			const int waterline = (int)b * level->width_z;
+			if (!direction_moves(plan, movable, level, station, waterline))
+				continue;
+			if (centres) {
+				centres[2 * added] = station;
+				centres[2 * added + 1] = waterline;
+			}
+			added++;
+		}
+	return added;
+}
+
+static void add_directions(search_plan *plan, const uint8_t *movable)
+{
+	size_t total = 0;
+	for (int l = 0; l < plan->level_count; l++)
+		for (size_t c = 0; c < SEARCH_COLOUR_COUNT; c++) {
+			search_level *level = &plan->levels[l];
+			int32_t *centres = plan->centres ? plan->centres + 2 * total : NULL;
+			level->first[c] = (int)total;
+			total += add_colour(plan, level, c, movable, centres);
+			level->first[c + 1] = (int)total;
+		}
+	plan->direction_count = total;
+}
+
+/* The directions that can move something in at least one problem of the batch. A direction that
+ * cannot move a hull changes nothing in it, so a hull's result does not depend on its batch. */
+static batten_status list_directions(search_plan *plan, size_t count,
+                                     const batten_search_problem *problems)
+{
+	const size_t nodes = plan->station_count * plan->waterline_count;
+	uint8_t *movable = batten_allocate(plan->context, nodes, 1);
+	if (!movable)
+		return BATTEN_MEMORY;
+	for (size_t p = 0; p < count; p++)
+		if (!search_problem_fault(plan, &problems[p]))
+			for (size_t n = 0; n < nodes; n++)
+				movable[n] |= can_move(&problems[p], n);
+	add_directions(plan, movable);
+	plan->centres = batten_allocate(plan->context, 2 * plan->direction_count + 1,
+	                                sizeof *plan->centres);
+	if (plan->centres)
+		add_directions(plan, movable);
+	batten_release(plan->context, movable);
+	return plan->centres ? BATTEN_OK : BATTEN_MEMORY;
+}
+
+static batten_status check_grid(batten_context *context, const batten_grid *grid)
+{
+	if (grid->station_count < 3 || grid->station_count > COORDINATE_LIMIT ||
+	    grid->waterline_count < 3 || grid->waterline_count > COORDINATE_LIMIT)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "a grid of %zu stations and %zu waterlines, 3 to %d each are expected",
+		                   grid->station_count, grid->waterline_count, COORDINATE_LIMIT);
+	for (size_t i = 0; i < grid->station_count; i++)
+		if (!isfinite(grid->x_m[i]) || (i > 0 && !(grid->x_m[i] > grid->x_m[i - 1])))
+			return batten_fail(context, BATTEN_USAGE, "station %zu: x must be finite and ascending", i);
+	for (size_t k = 0; k < grid->waterline_count; k++)
+		if (!isfinite(grid->z_m[k]) || (k > 0 && !(grid->z_m[k] > grid->z_m[k - 1])))
+			return batten_fail(context, BATTEN_USAGE, "waterline %zu: z must be finite and ascending",
+			                   k);
+	return BATTEN_OK;
+}
+
+static bool is_lane_count(unsigned lanes)
+{
+	return lanes <= 16 && (lanes & (lanes - 1)) == 0;
+}
+
+/* Replaces every 0 that stands for "choose". Lanes and work-group are chosen per device later. */
+static batten_status check_options(batten_context *context, const batten_search_options *given,
+                                   batten_search_options *chosen)
+{
+	batten_search_options_default(chosen);
+	if (given)
+		*chosen = *given;
+	if (chosen->struct_size != sizeof *chosen)
+		return batten_fail(context, BATTEN_USAGE, "search options of another version of batten");
+	if (chosen->last_step == 0.0)
+		chosen->last_step = chosen->precision == BATTEN_F64 ? 2e-7 : 2e-6;
+	if (!(chosen->first_step > 0.0) || !(chosen->last_step > 0.0) ||
+	    !(chosen->last_step <= chosen->first_step) || !isfinite(chosen->first_step))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "search steps %g to %g of the half-beam: 0 < last <= first is expected",
+		                   chosen->first_step, chosen->last_step);
+	if (chosen->iteration_limit == 0 || chosen->iteration_limit > 1000000)
+		return batten_fail(context, BATTEN_USAGE, "iteration limit %u: 1 to 1000000 is expected",
+		                   chosen->iteration_limit);
+	if (!is_lane_count(chosen->lanes) || chosen->work_group > 1024)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "%u lanes in a work-group of %u: 1, 2, 4, 8 or 16 lanes and at most 1024 "
+		                   "work-items are expected",
+		                   chosen->lanes, chosen->work_group);
+	return BATTEN_OK;
+}
+
+static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
+{
+	batten_context *context = plan->context;
+	plan->station_count = grid->station_count;
+	plan->waterline_count = grid->waterline_count;
+	plan->node_count = (grid->station_count + 2) * (grid->waterline_count + 2);
+	plan->stencil_x = batten_allocate(context, grid->station_count, STENCIL_SIZE * sizeof(double));
+	plan->stencil_z = batten_allocate(context, grid->waterline_count, STENCIL_SIZE * sizeof(double));
+	plan->cell_x = batten_allocate(context, grid->station_count, sizeof(double));
+	plan->cell_z = batten_allocate(context, grid->waterline_count, sizeof(double));
+	if (!plan->stencil_x || !plan->stencil_z || !plan->cell_x || !plan->cell_z)
+		return BATTEN_MEMORY;
+	lay_out_direction(grid->x_m, grid->station_count, plan->stencil_x, plan->cell_x);
+	lay_out_direction(grid->z_m, grid->waterline_count, plan->stencil_z, plan->cell_z);
+	double spacing_x = 0.0;
+	double spacing_z = 0.0;
+	batten_status status = typical_spacing(context, grid->x_m, grid->station_count, &spacing_x);
+	if (status == BATTEN_OK)
+		status = typical_spacing(context, grid->z_m, grid->waterline_count, &spacing_z);
+	if (status == BATTEN_OK)
+		choose_levels(plan, spacing_x, spacing_z);
+	return status;
+}
+
+batten_status search_plan_create(batten_context *context, const batten_grid *grid, size_t count,
+                                 const batten_search_problem *problems,
+                                 const batten_search_options *options, search_plan **out)
+{
+	batten_status status = check_grid(context, grid);
+	if (status != BATTEN_OK)
+		return status;
+	search_plan *plan = batten_allocate(context, 1, sizeof *plan);
+	if (!plan)
+		return BATTEN_MEMORY;
+	plan->context = context;
+	status = check_options(context, options, &plan->options);
+	if (status == BATTEN_OK && plan->options.precision == BATTEN_F32 &&
+	    grid->station_count * grid->waterline_count > F32_NODE_LIMIT)
+		status = batten_fail(context, BATTEN_USAGE,
+		                     "a grid of %zu x %zu nodes in f32: at most %d nodes are expected",
+		                     grid->station_count, grid->waterline_count, F32_NODE_LIMIT);
+	if (status == BATTEN_OK)
+		status = lay_out_grid(plan, grid);
+	if (status == BATTEN_OK)
+		status = list_directions(plan, count, problems);
+	if (status != BATTEN_OK) {
+		search_plan_destroy(plan);
+		return status;
+	}
+	*out = plan;
+	return BATTEN_OK;
+}
+
+void search_plan_destroy(search_plan *plan)
+{
+	if (!plan)
+		return;
+	batten_context *context = plan->context;
+	batten_release(context, plan->stencil_x);
+	batten_release(context, plan->stencil_z);
+	batten_release(context, plan->cell_x);
+	batten_release(context, plan->cell_z);
+	batten_release(context, plan->centres);
+	batten_release(context, plan);
+}
+
+const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem)
+{
+	if (!isfinite(problem->w1) || !isfinite(problem->w2) || problem->w1 < 0.0 || problem->w2 < 0.0 ||
+	    problem->w1 + problem->w2 == 0.0)
+		return "the weights must be finite, not negative and not both 0";
+	if (!isfinite(problem->half_beam_m) || problem->half_beam_m <= 0.0)
+		return "the half-beam must be positive";
+	const size_t nodes = plan->station_count * plan->waterline_count;
+	for (size_t n = 0; n < nodes; n++) {
+		if (problem->nodes && problem->nodes[n] == BATTEN_NODE_OUTSIDE)
+			continue;
+		if (!isfinite(problem->start_m[n]) || !isfinite(problem->target_m[n]))
+			return "a start or target value is not finite";
+		if (!isfinite(problem->lower_m[n]) || !isfinite(problem->upper_m[n]) ||
+		    problem->lower_m[n] > problem->upper_m[n])
+			return "a lower bound is above its upper bound or not finite";
+		if (problem->closeness_weight && !(problem->closeness_weight[n] >= 0.0))
+			return "a closeness weight is negative";
+	}
+	return NULL;
+}
+
+uint64_t search_problem_directions(const search_plan *plan, const batten_search_problem *problem,
+                                   uint8_t *scratch)
+{
+	const size_t nodes = plan->station_count * plan->waterline_count;
+	for (size_t n = 0; n < nodes; n++)
+		scratch[n] = can_move(problem, n);
+	uint64_t directions = 0;
+	for (int l = 0; l < plan->level_count; l++)
+		for (int d = plan->levels[l].first[0]; d < plan->levels[l].first[SEARCH_COLOUR_COUNT]; d++)
+			directions += direction_moves(plan, scratch, &plan->levels[l], plan->centres[2 * d],
+			                              plan->centres[2 * d + 1]);
+	return directions;
+}
+
+void batten_search_options_default(batten_search_options *options)
+{
+	*options = (batten_search_options){ .struct_size = sizeof *options,
+		                                .device = BATTEN_DEVICE_AUTO,
+		                                .precision = BATTEN_F64,
+		                                .first_step = 0.02,
+		                                .iteration_limit = 400 };
+}
+
+const char *batten_search_end_text(batten_search_end end)
+{
+	switch (end) {
+	case BATTEN_SEARCH_CONVERGED:
+		return "converged by step";
+	case BATTEN_SEARCH_LIMIT:
+		return "iteration limit";
+	case BATTEN_SEARCH_STATIONARY:
+		return "stationary at start";
+	case BATTEN_SEARCH_REFUSED:
+		return "refused";
+	}
+	return "unknown";
+}

@@ -1,0 +1,143 @@
+#include "batch/search_selftest.h"
+
+#include "batch/search_reference.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { STATIONS = 9, WATERLINES = 13, NODES = STATIONS * WATERLINES, MOST_LANES = 16 };
+
+/* A small hull with all that a real one has: uneven spacing, a rising keel, a raked stem, offsets on
+ * their bounds, noise. No library function takes part, so every machine gets the same numbers. */
+typedef struct test_hull {
+	double x[STATIONS], z[WATERLINES];
+	double y[NODES], lower[NODES], upper[NODES];
+	uint8_t nodes[NODES];
+} test_hull;
+
+static double noise_of(uint32_t *state)
+{
+	*state = *state * 1664525u + 1013904223u;
+	return (double)(*state >> 8) / (double)(1u << 24) - 0.5;
+}
+
+static void make_hull(test_hull *hull)
+{
+	uint32_t state = 20011u;
+	for (int i = 0; i < STATIONS; i++)
+		hull->x[i] = i < 3 ? 0.5 * i : i - 1.0;
+	for (int k = 0; k < WATERLINES; k++)
+		hull->z[k] = k < 5 ? 0.0625 * k : 0.25 + 0.125 * (k - 4);
+	for (int k = 0; k < WATERLINES; k++)
+		for (int i = 0; i < STATIONS; i++) {
+			const int n = k * STATIONS + i;
+			const double u = hull->x[i] / 7.0;
+			const double v = hull->z[k] / 1.25;
+			const bool outside = k + i < 3 || i > STATIONS - 3 + k / 4;
+			const double form = 0.25 + 2.0 * u * (1.0 - u) * v * (2.0 - v);
+			hull->nodes[n] = outside ? BATTEN_NODE_OUTSIDE : BATTEN_NODE_GIVEN;
+			hull->y[n] = outside ? 0.0 : form + 0.02 * noise_of(&state);
+			const double room = outside || n % 17 == 0 ? 0.0 : 0.015;
+			hull->lower[n] = hull->y[n] - room;
+			hull->upper[n] = hull->y[n] + room;
+		}
+}
+
+static bool equal_bits(double a, double b)
+{
+	return memcmp(&a, &b, sizeof a) == 0;
+}
+
+/* Counts the numbers of one search that differ from the C path's, and how far the objective is off. */
+static void compare(const double *y, const batten_search_result *found, const double *known_y,
+                    const batten_search_result *known, batten_selftest *result, double *worst)
+{
+	for (int n = 0; n < NODES; n++)
+		result->different += !equal_bits(y[n], known_y[n]);
+	result->different += !equal_bits(found->objective_start, known->objective_start);
+	result->different += !equal_bits(found->objective_end, known->objective_end);
+	result->different += !equal_bits(found->last_step_m, known->last_step_m);
+	result->different += found->iterations != known->iterations;
+	result->different += found->probes != known->probes;
+	result->compared += NODES + 5;
+	const double off = fabs(found->objective_end - known->objective_end) / known->objective_end;
+	if (!(off <= *worst))
+		*worst = off;
+}
+
+static void judge(batten_selftest *result, double worst)
+{
+	const double tolerance = result->precision == BATTEN_F64 ? 1e-6 : 1e-3;
+	if (result->different == 0)
+		result->result = BATTEN_SELFTEST_EQUAL;
+	else if (worst <= tolerance)
+		result->result = BATTEN_SELFTEST_DIFFERENT;
+	else
+		result->result = BATTEN_SELFTEST_FAILED;
+	if (result->different > 0)
+		(void)snprintf(result->message, sizeof result->message,
+		               "%zu of %zu numbers differ from the C path, the objective by up to %.3g of it",
+		               result->different, result->compared, worst);
+}
+
+static batten_status run_both(search_engine *engine, const search_plan *plan,
+                              const batten_search_problem *problems, size_t count, double *y,
+                              batten_selftest *result)
+{
+	size_t which[2 * MOST_LANES + 1];
+	batten_search_result found[2 * MOST_LANES + 1] = { 0 };
+	for (size_t p = 0; p < count; p++)
+		which[p] = p;
+	const double begun = batten_wall_seconds();
+	batten_status status = search_engine_run(engine, plan, problems, which, count, y, found);
+	result->run_s = batten_wall_seconds() - begun;
+	search_reference reference = { 0 };
+	if (status == BATTEN_OK)
+		status = search_reference_create(plan, &reference);
+	double worst = 0.0;
+	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
+		double known_y[NODES];
+		batten_search_result known = { 0 };
+		search_reference_run(&reference, &problems[p], known_y, &known);
+		compare(y + p * NODES, &found[p], known_y, &known, result, &worst);
+	}
+	search_reference_release(&reference);
+	if (status == BATTEN_OK)
+		judge(result, worst);
+	return status;
+}
+
+batten_status search_selftest_run(search_engine *engine, batten_selftest *result)
+{
+	batten_context *context = search_engine_context(engine);
+	const search_shape *shape = search_engine_shape(engine);
+	test_hull hull;
+	make_hull(&hull);
+	/* Two full groups of lanes and one more, so that idle lanes are met too. */
+	const size_t count = 2 * shape->lanes + 1;
+	batten_search_problem problems[2 * MOST_LANES + 1];
+	for (size_t p = 0; p < count; p++)
+		problems[p] = (batten_search_problem){ .nodes = hull.nodes,
+			                                   .start_m = hull.y,
+			                                   .target_m = hull.y,
+			                                   .lower_m = hull.lower,
+			                                   .upper_m = hull.upper,
+			                                   .w1 = 1.0,
+			                                   .w2 = ldexp(1.0, (int)p % 20),
+			                                   .half_beam_m = 0.75 };
+	const batten_grid grid = { STATIONS, WATERLINES, hull.x, hull.z };
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.precision = shape->precision;
+	search_plan *plan = NULL;
+	batten_status status = search_plan_create(context, &grid, count, problems, &options, &plan);
+	double *y = batten_allocate(context, count, NODES * sizeof *y);
+	if (status == BATTEN_OK && !y)
+		status = BATTEN_MEMORY;
+	if (status == BATTEN_OK)
+		status = run_both(engine, plan, problems, count, y, result);
+	search_plan_destroy(plan);
+	batten_release(context, y);
+	return status;
+}

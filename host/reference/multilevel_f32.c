@@ -1,0 +1,8 @@
+#include "reference/multilevel.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BATTEN_DOUBLE 0
+#define MULTILEVEL_FUNCTION reference_multilevel_f32
+#include "reference/multilevel_body.h"

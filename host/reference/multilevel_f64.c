@@ -1,0 +1,8 @@
+#include "reference/multilevel.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BATTEN_DOUBLE 1
+#define MULTILEVEL_FUNCTION reference_multilevel_f64
+#include "reference/multilevel_body.h"

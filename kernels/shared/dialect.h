@@ -1,0 +1,71 @@
+/* One spelling for C11 and OpenCL C 1.2. The includer defines, before including anything of this
+ * folder, BATTEN_DIALECT_C or BATTEN_DIALECT_OPENCL, BATTEN_DOUBLE (1: f64, 0: f32) and, in OpenCL,
+ * BATTEN_LANES (1, 2, 4, 8 or 16).
+ *
+ *   scalar   float or double
+ *   real     BATTEN_LANES scalars side by side, one search a lane (in C always one)
+ *   mask     what comparing two reals gives; only CHOOSE, ANY and & look into it
+ *
+ * Strict arithmetic: only + - * / sqrt and comparisons, no contraction, so that C and every device
+ * agree bit for bit. */
+#ifndef BATTEN_SHARED_DIALECT_H
+#define BATTEN_SHARED_DIALECT_H
+
+#if defined(BATTEN_DIALECT_C) == defined(BATTEN_DIALECT_OPENCL)
+#error "define exactly one of BATTEN_DIALECT_C and BATTEN_DIALECT_OPENCL"
+#endif
+
+#define BATTEN_PASTE_(a, b) a##b
+#define BATTEN_PASTE(a, b) BATTEN_PASTE_(a, b)
+
+#if defined(BATTEN_DIALECT_C)
+#include <math.h>
+
+#if BATTEN_DOUBLE
+typedef double scalar;
+#define SQUARE_ROOT(a) sqrt(a)
+#define LITERAL(a) a
+#else
+typedef float scalar;
+#define SQUARE_ROOT(a) sqrtf(a)
+#define LITERAL(a) BATTEN_PASTE(a, f)
+#endif
+typedef scalar real;
+typedef int mask;
+#define CHOOSE(condition, when_true, when_false) ((condition) ? (when_true) : (when_false))
+#define SPREAD(a) (a)
+#define SHARED_FUNCTION static inline
+
+#else
+
+#pragma OPENCL FP_CONTRACT OFF
+#if BATTEN_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double scalar;
+#define LITERAL(a) a
+#define BATTEN_REAL_NAME double
+#define BATTEN_MASK_NAME long
+#else
+typedef float scalar;
+#define LITERAL(a) BATTEN_PASTE(a, f)
+#define BATTEN_REAL_NAME float
+#define BATTEN_MASK_NAME int
+#endif
+#define SQUARE_ROOT(a) sqrt(a)
+#if BATTEN_LANES == 1
+typedef BATTEN_REAL_NAME real;
+typedef int mask;
+#define CHOOSE(condition, when_true, when_false) ((condition) ? (when_true) : (when_false))
+#define ANY(condition) (condition)
+#else
+typedef BATTEN_PASTE(BATTEN_REAL_NAME, BATTEN_LANES) real;
+typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
+#define CHOOSE(condition, when_true, when_false) select(when_false, when_true, condition)
+#define ANY(condition) any(condition)
+#endif
+#define SPREAD(a) ((real)(a))
+#define SHARED_FUNCTION static inline
+
+#endif
+
+#endif

@@ -1,0 +1,51 @@
+/* The rules of the multilevel pattern search (Hooke and Jeeves; thesis 7.2) that the C path and the
+ * kernel share: directions, steps, acceptance.
+ *
+ * A direction is a hat over index space: 1 at its centre, falling linearly to 0 at `width` nodes from
+ * it. Width 1 is a single offset. Centres of one level lie `width` apart, so that directions whose
+ * centre numbers agree modulo 3 both ways share no term of the objective and neither reads what the
+ * other writes: nine colours, each of which may be worked through in any order or at once. */
+#ifndef BATTEN_SHARED_MULTILEVEL_H
+#define BATTEN_SHARED_MULTILEVEL_H
+
+#include "dialect.h"
+
+#define PATTERN_LIMIT 7 /* longest pattern move: 2^6 times the last exploratory move */
+
+/* A gain below this part of the sum it was found in is rounding, not a gain. */
+#if BATTEN_DOUBLE
+#define GAIN_FLOOR LITERAL(1e-14)
+#else
+#define GAIN_FLOOR LITERAL(3e-7)
+#endif
+
+/* The hat's height `offset` nodes from its centre; inverse_width = 1 / width. */
+SHARED_FUNCTION scalar hat_height(int offset, scalar inverse_width)
+{
+	const scalar height = LITERAL(1.0) - (scalar)(offset < 0 ? -offset : offset) * inverse_width;
+	return height > LITERAL(0.0) ? height : LITERAL(0.0);
+}
+
+/* A value moved by step and kept in its box. A fixed node has lower == upper. */
+SHARED_FUNCTION real move_clamped(real y, real step, real lower, real upper)
+{
+	const real moved = y + step;
+	const real raised = CHOOSE(moved < lower, lower, moved);
+	return CHOOSE(raised > upper, upper, raised);
+}
+
+/* The step to the bottom of the parabola through the changes at +h, 0 and -h, at most 4 h long: a
+ * longer one may leap into a spurious minimum, because a cliff in a graph surface costs almost
+ * nothing. 0 where the parabola has no bottom. */
+SHARED_FUNCTION real parabola_step(real h, real plus, real minus)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real bend = plus + minus;
+	const real limit = SPREAD(LITERAL(4.0)) * h;
+	const real safe = CHOOSE(bend > zero, bend, SPREAD(LITERAL(1.0)));
+	const real bottom = (h * (minus - plus)) / (SPREAD(LITERAL(2.0)) * safe);
+	const real cut = CHOOSE(bottom > limit, limit, CHOOSE(bottom < -limit, -limit, bottom));
+	return CHOOSE(bend > zero, cut, zero);
+}
+
+#endif

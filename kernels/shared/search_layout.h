@@ -1,0 +1,39 @@
+/* How a block of searches lies in memory: the same numbers for the host, the C path and the kernel.
+ * Value v of lane l is number v * lanes + l. */
+#ifndef BATTEN_SHARED_SEARCH_LAYOUT_H
+#define BATTEN_SHARED_SEARCH_LAYOUT_H
+
+/* Arrays of a block, one value a node each (the grid with a ring of one node around it). */
+enum {
+	SEARCH_ARRAY_Y,
+	SEARCH_ARRAY_LOWER,
+	SEARCH_ARRAY_UPPER,
+	SEARCH_ARRAY_TARGET,
+	SEARCH_ARRAY_BEND,  /* w1 dx dz where the energy has a term, else 0 */
+	SEARCH_ARRAY_CLOSE, /* w2 dx dz / h^4 */
+	SEARCH_ARRAY_COUNT
+};
+
+/* One value a search each. */
+enum { SEARCH_SETTING_FIRST_STEP, SEARCH_SETTING_LAST_STEP, SEARCH_SETTING_COUNT };
+enum {
+	SEARCH_OUTCOME_START, /* objective */
+	SEARCH_OUTCOME_END,   /* objective */
+	SEARCH_OUTCOME_STEP,  /* last step */
+	SEARCH_OUTCOME_ITERATIONS,
+	SEARCH_OUTCOME_MOVES,      /* iterations whose exploratory moves gained */
+	SEARCH_OUTCOME_EXTRA_HIGH, /* probes beyond two a direction: high * 2^20 + low */
+	SEARCH_OUTCOME_EXTRA_LOW,
+	SEARCH_OUTCOME_COUNT
+};
+
+/* One level of hats: widths along x and z, first direction of each colour and the end of the last. */
+enum {
+	SEARCH_COLOUR_COUNT = 9,
+	SEARCH_LEVEL_WIDTH_X = 0,
+	SEARCH_LEVEL_WIDTH_Z = 1,
+	SEARCH_LEVEL_FIRST = 2,
+	SEARCH_LEVEL_SIZE = SEARCH_LEVEL_FIRST + SEARCH_COLOUR_COUNT + 1
+};
+
+#endif
