@@ -1,0 +1,245 @@
+/* Every measure of a hull, by name: hydrostatics, fairness, energies, noise; and how far one hull is
+ * from another. */
+#include "batten.h"
+#include "fairing/lines.h"
+#include "fairing/noise.h"
+#include "geometry/grid_curvature.h"
+#include "hydrostatics/hydrostatics.h"
+
+#include <math.h>
+
+static const char *const measure_names[] = {
+#define MEASURE_NAME(name, text) #name,
+	BATTEN_MEASURE_LIST(MEASURE_NAME)
+#undef MEASURE_NAME
+};
+static const char *const measure_texts[] = {
+#define MEASURE_TEXT(name, text) text,
+	BATTEN_MEASURE_LIST(MEASURE_TEXT)
+#undef MEASURE_TEXT
+};
+
+const char *batten_measure_name(size_t i)
+{
+	return i < BATTEN_MEASURE_COUNT ? measure_names[i] : NULL;
+}
+
+const char *batten_measure_text(size_t i)
+{
+	return i < BATTEN_MEASURE_COUNT ? measure_texts[i] : NULL;
+}
+
+void batten_measure_options_default(batten_measure_options *options)
+{
+	*options = (batten_measure_options){ .struct_size = sizeof *options,
+		                                 .quadrature = BATTEN_QUADRATURE_SPLINE,
+		                                 .density_t_per_m3 = 1.025 };
+}
+
+/* A measure that would be divided by nothing does not exist. */
+static double ratio(double of, double by)
+{
+	return by > 0 ? of / by : NAN;
+}
+
+static void take_dimensions(const batten_hull *hull, double draft_m, const hydrostatics *body,
+                            batten_measures *out)
+{
+	out->lbp_m = hull->lbp_m;
+	out->draft_m = draft_m;
+	out->half_beam_m = batten_hull_half_beam_m(hull);
+	out->beam_max_m = 2 * out->half_beam_m;
+	out->lwl_m = body->waterline_length_m;
+	out->beam_wl_m = 2 * body->waterline_half_breadth_m;
+}
+
+static void take_volume(const hydrostatics *body, double density_t_per_m3, batten_measures *out)
+{
+	out->volume_m3 = body->volume_m3;
+	out->displacement_t = density_t_per_m3 * body->volume_m3;
+	out->wetted_surface_m2 = body->wetted_surface_m2;
+	out->midship_area_m2 = body->midship_area_m2;
+	out->max_section_area_m2 = body->max_section_area_m2;
+	out->xcb_from_ap_m = ratio(body->volume_moment_x_m4, body->volume_m3);
+	out->lcb_pct_lbp_fwd = 100 * (out->xcb_from_ap_m - 0.5 * out->lbp_m) / out->lbp_m;
+	out->kb_m = ratio(body->volume_moment_z_m4, body->volume_m3);
+}
+
+static void take_waterplane(const hydrostatics *body, double density_t_per_m3, batten_measures *out)
+{
+	double area = body->waterplane_area_m2;
+	out->waterplane_area_m2 = area;
+	out->tpc_t_per_cm = density_t_per_m3 * area / 100;
+	out->xcf_from_ap_m = ratio(body->waterplane_moment_x_m3, area);
+	out->lcf_pct_lbp_fwd = 100 * (out->xcf_from_ap_m - 0.5 * out->lbp_m) / out->lbp_m;
+	out->i_t_m4 = body->transverse_second_moment_m4;
+	out->i_l_m4 = body->longitudinal_second_moment_m4 -
+	              ratio(body->waterplane_moment_x_m3 * body->waterplane_moment_x_m3, area);
+	out->bmt_m = ratio(out->i_t_m4, out->volume_m3);
+	out->bml_m = ratio(out->i_l_m4, out->volume_m3);
+	out->kmt_m = out->kb_m + out->bmt_m;
+	out->kml_m = out->kb_m + out->bml_m;
+}
+
+/* L = lbp_m, B = beam_wl_m. */
+static void take_coefficients(batten_measures *out)
+{
+	double length = out->lbp_m, beam_draft = out->beam_wl_m * out->draft_m;
+	out->cb = ratio(out->volume_m3, length * beam_draft);
+	out->cp = ratio(out->volume_m3, length * out->midship_area_m2);
+	out->cm = ratio(out->midship_area_m2, beam_draft);
+	out->cwp = ratio(out->waterplane_area_m2, length * out->beam_wl_m);
+	out->cv = ratio(1000 * out->volume_m3, length * length * length);
+	out->cws = ratio(out->wetted_surface_m2, sqrt(out->volume_m3 * length));
+}
+
+static batten_status take_energies(batten_context *context, const batten_hull *hull,
+                                   batten_measures *out)
+{
+	grid_curvature *grid = NULL;
+	batten_status status = grid_curvature_create(context, hull, &grid);
+	if (status != BATTEN_OK)
+		return status;
+	bool any = grid->own_count > 0;
+	out->energy_bending = out->energy_mean = out->energy_gauss = any ? 0 : NAN;
+	for (size_t i = 0; any && i < hull_node_count(hull); i++) {
+		if (grid->origin[i] != GRID_CURVATURE_OWN)
+			continue;
+		double area = grid->area_m2[i], mean = grid->mean_per_m[i];
+		out->energy_bending += grid->bending_per_m2[i] * area;
+		out->energy_mean += mean * mean * area;
+		out->energy_gauss += fabs(grid->gauss_per_m2[i]) * area;
+	}
+	grid_curvature_destroy(context, grid);
+	return BATTEN_OK;
+}
+
+static batten_status take_fairness(batten_context *context, const batten_hull *hull,
+                                   batten_measures *out)
+{
+	lines_sum waterlines, sections;
+	batten_status status = lines_of_hull(hull, true, &waterlines);
+	if (status == BATTEN_OK)
+		status = lines_of_hull(hull, false, &sections);
+	if (status == BATTEN_OK)
+		status = noise_estimate(context, hull, &out->noise_m);
+	if (status != BATTEN_OK)
+		return status;
+	out->fn_per_m2 = waterlines.fn_per_m2;
+	out->fn_sections_per_m2 = sections.fn_per_m2;
+	out->inflections = (double)(waterlines.inflections + sections.inflections);
+	return take_energies(context, hull, out);
+}
+
+static batten_status check_options(batten_context *context, const batten_measure_options *options)
+{
+	if (options->struct_size != sizeof *options)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "measure options: not filled by batten_measure_options_default()");
+	if (!isfinite(options->draft_m) || options->draft_m < 0)
+		return batten_fail(context, BATTEN_USAGE, "draft %g m: expected a positive number",
+		                   options->draft_m);
+	if (!isfinite(options->density_t_per_m3) || options->density_t_per_m3 <= 0)
+		return batten_fail(context, BATTEN_USAGE, "density %g t/m3: expected a positive number",
+		                   options->density_t_per_m3);
+	if (options->quadrature != BATTEN_QUADRATURE_SPLINE &&
+	    options->quadrature != BATTEN_QUADRATURE_SIMPSON &&
+	    options->quadrature != BATTEN_QUADRATURE_TRAPEZOID)
+		return batten_fail(context, BATTEN_USAGE, "quadrature %d: no such rule",
+		                   (int)options->quadrature);
+	return BATTEN_OK;
+}
+
+batten_status batten_hull_measure(batten_context *context, const batten_hull *hull,
+                                  const batten_measure_options *options, batten_measures *out)
+{
+	batten_measure_options chosen;
+	batten_measure_options_default(&chosen);
+	if (options)
+		chosen = *options;
+	batten_status status = check_options(context, &chosen);
+	if (status != BATTEN_OK)
+		return status;
+	double draft = chosen.draft_m > 0 ? chosen.draft_m : hull->draft_m;
+	hydrostatics body;
+	status = hydrostatics_calculate(context, hull, draft, chosen.quadrature, &body);
+	if (status != BATTEN_OK)
+		return status;
+	batten_measures made = { 0 };
+	take_dimensions(hull, draft, &body, &made);
+	take_volume(&body, chosen.density_t_per_m3, &made);
+	take_waterplane(&body, chosen.density_t_per_m3, &made);
+	take_coefficients(&made);
+	status = take_fairness(context, hull, &made);
+	if (status == BATTEN_OK)
+		*out = made;
+	return status;
+}
+
+static bool same_coordinates(size_t count, const double *a, const double *b)
+{
+	double near = 1e-9 * (a[count - 1] - a[0]);
+	for (size_t i = 0; i < count; i++)
+		if (!(fabs(a[i] - b[i]) <= near))
+			return false;
+	return true;
+}
+
+static batten_status check_same_table(batten_context *context, const batten_hull *a,
+                                      const batten_hull *b)
+{
+	if (a->station_count != b->station_count || a->waterline_count != b->waterline_count)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "%s and %s: tables of %zu x %zu and %zu x %zu, expected the same table",
+		                   a->name, b->name, a->station_count, a->waterline_count, b->station_count,
+		                   b->waterline_count);
+	if (!same_coordinates(a->station_count, a->x_m, b->x_m) ||
+	    !same_coordinates(a->waterline_count, a->z_m, b->z_m))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "%s and %s: other stations or waterlines, expected the same table",
+		                   a->name, b->name);
+	for (size_t i = 0; i < hull_node_count(a); i++)
+		if (a->nodes[i] != b->nodes[i])
+			return batten_fail(
+				context, BATTEN_USAGE,
+				"%s and %s: the cell of station %zu, waterline %zu is not the same in "
+				"both, expected the same table",
+				a->name, b->name, i % a->station_count, i / a->station_count);
+	return BATTEN_OK;
+}
+
+/* Half the distance between a coordinate's neighbours; at an end, to its one neighbour. */
+static double half_sum_spacing(const double *at, size_t count, size_t i)
+{
+	double low = at[i > 0 ? i - 1 : 0], high = at[i + 1 < count ? i + 1 : count - 1];
+	return 0.5 * (high - low);
+}
+
+batten_status batten_hull_closeness(batten_context *context, const batten_hull *hull,
+                                    const batten_hull *reference, batten_closeness *out)
+{
+	batten_status status = check_same_table(context, hull, reference);
+	if (status != BATTEN_OK)
+		return status;
+	batten_closeness made = { 0 };
+	double squares = 0, counted = 0;
+	for (size_t i = 0; i < hull_node_count(hull); i++) {
+		if (hull->nodes[i] == BATTEN_NODE_OUTSIDE)
+			continue;
+		double change = hull->y_m[i] - reference->y_m[i];
+		made.closeness_m4 += change * change *
+		                     half_sum_spacing(hull->x_m, hull->station_count,
+		                                      i % hull->station_count) *
+		                     half_sum_spacing(hull->z_m, hull->waterline_count,
+		                                      i / hull->station_count);
+		made.cn_max_m = fmax(made.cn_max_m, fabs(change));
+		if (hull->nodes[i] == BATTEN_NODE_GIVEN && (hull->y_m[i] > 0 || reference->y_m[i] > 0)) {
+			squares += change * change;
+			counted += 1;
+		}
+	}
+	made.cn_rms_m = counted > 0 ? sqrt(squares / counted) : 0;
+	made.cn_pct = ratio(100 * made.cn_max_m, batten_hull_half_beam_m(reference));
+	*out = made;
+	return BATTEN_OK;
+}
