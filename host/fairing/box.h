@@ -1,0 +1,22 @@
+/* What the search may do to a hull: its variables and their bounds. */
+#ifndef BATTEN_FAIRING_BOX_H
+#define BATTEN_FAIRING_BOX_H
+
+#include "hull/hull.h"
+
+typedef struct fairing_box {
+	double *lower_m, *upper_m; /* [waterlines][stations]; equal where nothing moves */
+	double *closeness_weight;  /* 0 at '?' cells: there is no half-breadth to stay close to */
+	size_t variable_count;
+} fairing_box;
+
+/* Variables are the positive offsets and the '?' cells that no lock holds; profile zeros stay. Bounds:
+ * 0 <= y <= 1.2 h, |y - smoothed| <= distance, and the lower and upper hulls of the options.
+ * Errors: USAGE (a lock or a bound that is not on the table), INPUT (bounds that exclude each other,
+ * naming the offset and the two), MEMORY. */
+batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,
+                                 const batten_fair_options *options, double distance_m,
+                                 fairing_box *out);
+void fairing_box_release(batten_context *context, fairing_box *box);
+
+#endif
