@@ -1,0 +1,52 @@
+/* The page of a lines plan: body plan, half-breadth plan, profile, legend. */
+#ifndef BATTEN_PICTURE_LINES_PAGE_H
+#define BATTEN_PICTURE_LINES_PAGE_H
+
+#include "picture/lines_drawing.h"
+
+#define LINES_PAGE_WIDTH 1600.0
+#define LINES_PAGE_HEIGHT 1270.0
+
+/* The table's extent. */
+typedef struct lines_box {
+	double x_low, x_high, z_low, z_high, half_beam;
+} lines_box;
+
+typedef struct lines_page {
+	batten_context *context;
+	cairo_t *cairo;
+	const batten_hull *before; /* NULL, or drawn pale under after */
+	const batten_hull *after;
+	lines_box box;
+	lines_plan fore, aft; /* the two sides of the body plan */
+	lines_plan half;      /* half-breadth plan */
+	lines_plan profile;
+} lines_page;
+
+/* A node that moved more than the part of the half-beam from which points are ringed. */
+typedef struct moved_point {
+	size_t station, waterline;
+	double from_m, to_m;
+} moved_point;
+
+extern const paper_ink lines_ink_after, lines_ink_before, lines_ink_grid, lines_ink_text,
+	lines_ink_moved;
+extern const double lines_moved_part; /* of the half-beam */
+
+/* Takes the box and places the plans. Errors: MEMORY, INPUT (no point at all). */
+batten_status lines_page_lay_out(lines_page *page);
+batten_status lines_page_draw_plans(const lines_page *page);
+void lines_page_draw_legend(const lines_page *page);
+
+/* Number n (0 first, in the order of the table) of the points that moved; false beyond the last or
+ * when there is nothing to compare with. */
+bool lines_page_moved(const lines_page *page, size_t n, moved_point *out);
+
+/* True when number_px is at least gap away from the last label placed; then it becomes the last. */
+bool lines_page_room(double *last, double place, double gap);
+/* A number in shortest form, rounded to a ten-thousandth of the first digit of extent. */
+void lines_page_number(double value_m, double extent_m, char *out, size_t size);
+void lines_page_text(const lines_page *page, double x, double y, double size, paper_anchor anchor,
+                     const char *text);
+
+#endif
