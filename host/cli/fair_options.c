@@ -1,0 +1,145 @@
+/* What the options of batten fair ask for. */
+#include "fair_job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One of the words that this version knows. */
+static batten_status check_word(const char *option, const char *found, const char *const *known)
+{
+	char list[128] = "";
+	for (; *known; known++) {
+		if (strcmp(found, *known) == 0)
+			return BATTEN_OK;
+		const size_t used = strlen(list);
+		(void)snprintf(list + used, sizeof list - used, "%s%s", used ? " or " : "", *known);
+	}
+	return cli_usage("fair", "--%s: found '%s', expected %s", option, found, list);
+}
+
+static batten_status check_words(const fair_request *request)
+{
+	static const char *const methods[] = { "search", NULL };
+	static const char *const searches[] = { "auto", "multilevel", NULL };
+	static const char *const variables[] = { "offsets", NULL };
+	static const char *const fairness[] = { "bending", NULL };
+	batten_status status = check_word("method", request->method, methods);
+	if (status == BATTEN_OK)
+		status = check_word("search", request->search, searches);
+	if (status == BATTEN_OK)
+		status = check_word("variables", request->variables, variables);
+	if (status == BATTEN_OK)
+		status = check_word("fairness", request->fairness, fairness);
+	return status;
+}
+
+/* "1%" of the half-beam, or a length with its unit: 0.5mm, 0.002m, 0.01ft. */
+static batten_status read_distance(const char *text, batten_fair_options *options)
+{
+	static const struct {
+		const char *unit;
+		double metres;
+	} units[] = { { "mm", 1e-3 }, { "m", 1.0 }, { "ft", 0.3048 } };
+	char *end = NULL;
+	const double value = strtod(text, &end);
+	if (end != text && isfinite(value) && value >= 0.0) {
+		if (strcmp(end, "%") == 0) {
+			options->max_distance_part = value / 100.0;
+			return BATTEN_OK;
+		}
+		for (size_t u = 0; u < sizeof units / sizeof units[0]; u++)
+			if (strcmp(end, units[u].unit) == 0) {
+				options->max_distance_m = value * units[u].metres;
+				return BATTEN_OK;
+			}
+	}
+	return cli_usage("fair", "--max-distance: found '%s', expected e.g. 1%% (of the half-beam) or 0.5mm",
+	                 text);
+}
+
+static batten_status bad_lock(const char *text, size_t length)
+{
+	return cli_usage("fair",
+	                 "--lock: found '%.*s', expected station:X, waterline:Z or point:X@Z in the unit "
+	                 "and frame of the file",
+	                 (int)length, text);
+}
+
+/* One lock: text[0..length). */
+static batten_status read_lock(const char *text, size_t length, const batten_hull *hull,
+                               batten_lock *lock)
+{
+	static const char *const kinds[] = { "station:", "waterline:", "point:" };
+	char copy[128];
+	if (length >= sizeof copy)
+		return bad_lock(text, length);
+	memcpy(copy, text, length);
+	copy[length] = '\0';
+	for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++) {
+		const size_t prefix = strlen(kinds[kind]);
+		if (strncmp(copy, kinds[kind], prefix) != 0)
+			continue;
+		char *end = NULL;
+		double place[2] = { strtod(copy + prefix, &end), 0.0 };
+		bool good = end != copy + prefix && isfinite(place[0]);
+		if (good && kind == BATTEN_LOCK_POINT) {
+			const char *second = end + 1;
+			good = *end == '@';
+			if (good) {
+				place[1] = strtod(second, &end);
+				good = end != second && isfinite(place[1]);
+			}
+		}
+		if (!good || *end != '\0')
+			break;
+		lock->kind = (batten_lock_kind)kind;
+		const bool only_z = lock->kind == BATTEN_LOCK_WATERLINE;
+		batten_hull_place(hull, only_z ? 0.0 : place[0], only_z ? place[0] : place[1], &lock->x_m,
+		                  &lock->z_m);
+		return BATTEN_OK;
+	}
+	return bad_lock(text, length);
+}
+
+static batten_status read_locks(const char *text, const batten_hull *hull, batten_lock *locks,
+                                size_t capacity, size_t *count)
+{
+	while (*text) {
+		const size_t length = strcspn(text, ",");
+		if (*count == capacity)
+			return cli_usage("fair", "--lock: at most %zu locks are expected", capacity);
+		const batten_status status = read_lock(text, length, hull, &locks[*count]);
+		if (status != BATTEN_OK)
+			return status;
+		++*count;
+		text += length;
+		text += *text == ',';
+	}
+	return BATTEN_OK;
+}
+
+batten_status fair_options_read(const fair_request *request, const batten_hull *hull,
+                                batten_fair_options *options, batten_lock *locks, size_t capacity)
+{
+	batten_fair_options_default(options);
+	batten_status status = check_words(request);
+	if (status != BATTEN_OK)
+		return status;
+	if ((request->w1 < 0.0) != (request->w2 < 0.0))
+		return cli_usage("fair", "--w1 and --w2 go together, not negative");
+	options->weights_given = request->w1 >= 0.0;
+	options->w1 = request->w1;
+	options->w2 = request->w2;
+	options->smooth = !request->no_smooth;
+	options->search.device = request->device;
+	options->search.precision = request->precision;
+	if (request->iterations > 0)
+		options->search.iteration_limit = request->iterations;
+	if (request->max_distance)
+		status = read_distance(request->max_distance, options);
+	if (status == BATTEN_OK && request->lock)
+		status = read_locks(request->lock, hull, locks, capacity, &options->lock_count);
+	options->locks = locks;
+	return status;
+}

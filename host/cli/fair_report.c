@@ -1,0 +1,174 @@
+/* report.json of batten fair. */
+#include "fair_job.h"
+
+#include "json_out.h"
+
+#include <string.h>
+
+static json_t *number(double value)
+{
+	return cli_json_number(value);
+}
+
+static json_t *count(size_t value)
+{
+	return json_integer((json_int_t)value);
+}
+
+static void set(json_t *object, const char *name, json_t *value)
+{
+	(void)json_object_set_new(object, name, value);
+}
+
+static json_t *command_line(const fair_request *request)
+{
+	json_t *words = json_array();
+	(void)json_array_append_new(words, json_string("batten"));
+	for (int i = 0; i < request->argc; i++) {
+		/* Not every path is UTF-8. */
+		json_t *word = json_string(request->argv[i]);
+		(void)json_array_append_new(words, word ? word : json_string("(not UTF-8)"));
+	}
+	return words;
+}
+
+static json_t *hull_json(const batten_hull *hull)
+{
+	json_t *object = json_object();
+	set(object, "name", json_string(batten_hull_name(hull)));
+	set(object, "source", json_string(batten_hull_source(hull)));
+	set(object, "frame_of_file", json_string(batten_hull_frame(hull)));
+	set(object, "unit_of_file", json_string(batten_hull_unit(hull)));
+	set(object, "frame", json_string("ap-fwd"));
+	set(object, "unit", json_string("m"));
+	set(object, "layout", json_string(batten_hull_layout(hull)));
+	set(object, "stations", count(batten_hull_station_count(hull)));
+	set(object, "waterlines", count(batten_hull_waterline_count(hull)));
+	set(object, "grid",
+	    json_string("energies: differences over 3 x 3 offsets, nodes whose neighbours are all on the "
+	                "hull; hydrostatics: not-a-knot spline in z, natural spline in x"));
+	return object;
+}
+
+static json_t *state_json(const fair_state *state, bool smoothed, bool faired)
+{
+	json_t *object = json_object();
+	cli_json_measures(object, &state->measures);
+	if (smoothed || faired) {
+		set(object, "cn_pct", number(state->to_input.cn_pct));
+		set(object, "cn_max_m", number(state->to_input.cn_max_m));
+		set(object, "cn_rms_m", number(state->to_input.cn_rms_m));
+	}
+	if (faired) {
+		set(object, "cn_search_pct", number(state->to_smoothed.cn_pct));
+		set(object, "cn_search_max_m", number(state->to_smoothed.cn_max_m));
+		set(object, "cn_search_rms_m", number(state->to_smoothed.cn_rms_m));
+		set(object, "closeness_m4", number(state->to_smoothed.closeness_m4));
+	}
+	return object;
+}
+
+static json_t *replaced_json(const batten_fairing *fairing)
+{
+	json_t *list = json_array();
+	const batten_replacement *replacements = batten_fairing_replacements(fairing);
+	for (size_t r = 0; r < batten_fairing_replacement_count(fairing); r++) {
+		json_t *object = json_object();
+		set(object, "station", count(replacements[r].station));
+		set(object, "waterline", count(replacements[r].waterline));
+		set(object, "x_m", number(replacements[r].x_m));
+		set(object, "z_m", number(replacements[r].z_m));
+		set(object, "old_m", number(replacements[r].old_m));
+		set(object, "new_m", number(replacements[r].new_m));
+		(void)json_array_append_new(list, object);
+	}
+	return list;
+}
+
+static json_t *lines_json(const fair_job *job)
+{
+	static const char *const kinds[] = { "station", "waterline", "buttock", "diagonal" };
+	static const char *const coordinates[] = { "x_m", "z_m", "y_m", "z_at_centreplane_m" };
+	json_t *list = json_array();
+	for (size_t l = 0; l < job->line_count; l++) {
+		const batten_line *before = &job->lines_before[l];
+		const batten_line *after = &job->lines_after[l];
+		json_t *object = json_object();
+		set(object, "kind", json_string(kinds[before->kind]));
+		set(object, coordinates[before->kind], number(before->coordinate_m));
+		set(object, "points", count(before->point_count));
+		set(object, "fn_before_per_m2", number(before->fn_per_m2));
+		set(object, "fn_after_per_m2", number(after->fn_per_m2));
+		set(object, "inflections_before", count(before->inflections));
+		set(object, "inflections_after", count(after->inflections));
+		set(object, "change_max_mm", number(1000.0 * after->change_max_m));
+		(void)json_array_append_new(list, object);
+	}
+	return list;
+}
+
+static json_t *method_json(const fair_job *job)
+{
+	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
+	const fair_request *request = job->request;
+	json_t *object = json_object();
+	set(object, "method", json_string("search"));
+	set(object, "search", json_string("multilevel"));
+	set(object, "variables", json_string("offsets"));
+	set(object, "fairness", json_string("bending"));
+	set(object, "smooth", json_boolean(!request->no_smooth));
+	set(object, "w1", number(facts.w1));
+	set(object, "w2", number(facts.w2));
+	set(object, "weights", json_string(facts.weights_by_noise ? "discrepancy principle" : "given"));
+	set(object, "noise_m", number(facts.noise_m));
+	set(object, "max_distance_m", number(facts.max_distance_m));
+	set(object, "upper_half_beams", number(1.2));
+	set(object, "lock", request->lock ? json_string(request->lock) : json_null());
+	set(object, "lower", request->lower_path ? json_string(request->lower_path) : json_null());
+	set(object, "upper", request->upper_path ? json_string(request->upper_path) : json_null());
+	set(object, "seed", count(request->seed));
+	set(object, "variable_count", count(facts.variable_count));
+	set(object, "at_limit_count", count(facts.at_limit_count));
+	set(object, "filled_count", count(facts.filled_count));
+	set(object, "rms_change_m", number(facts.rms_change_m));
+	return object;
+}
+
+static json_t *search_json(const fair_job *job)
+{
+	const batten_search_result *result = batten_fairing_result(job->fairing);
+	const batten_search_run *run = batten_fairing_run(job->fairing);
+	json_t *object = json_object();
+	set(object, "status", json_string(batten_search_end_text(result->end)));
+	set(object, "iterations", count(result->iterations));
+	set(object, "probes", json_integer((json_int_t)result->probes));
+	set(object, "objective_before", number(result->objective_start));
+	set(object, "objective_after", number(result->objective_end));
+	set(object, "last_step_m", number(result->last_step_m));
+	set(object, "device", json_string(run->device));
+	set(object, "strict", json_boolean(run->strict));
+	set(object, "precision", json_string(job->request->precision == BATTEN_F64 ? "f64" : "f32"));
+	set(object, "seconds", number(run->seconds));
+	return object;
+}
+
+batten_status fair_report_write(const fair_job *job, FILE *stream)
+{
+	json_t *report = json_object();
+	set(report, "batten", json_string(batten_version()));
+	set(report, "command", command_line(job->request));
+	set(report, "hull", hull_json(job->hull));
+	set(report, "before", state_json(&job->before, false, false));
+	set(report, "smoothed", state_json(&job->smoothed, true, false));
+	set(report, "after", state_json(&job->after, false, true));
+	set(report, "replaced", replaced_json(job->fairing));
+	set(report, "lines", lines_json(job));
+	set(report, "method", method_json(job));
+	set(report, "search", search_json(job));
+	set(report, "pictures", job->vulkan_driver[0] ? json_string(job->vulkan_driver) : json_null());
+	json_t *warnings = json_array();
+	for (size_t w = 0; w < job->warning_count; w++)
+		(void)json_array_append_new(warnings, json_string(job->warnings[w]));
+	set(report, "warnings", warnings);
+	return cli_json_write(report, stream);
+}

@@ -1,0 +1,63 @@
+/* The program: picks the subcommand. */
+#include "cli.h"
+
+#include <string.h>
+
+typedef struct subcommand {
+	const char *name;
+	batten_status (*run)(int argc, char **argv);
+	const char *summary;
+} subcommand;
+
+static const subcommand subcommands[] = {
+	{ "fair", cli_fair, "fair a hull: faired offsets, report, pictures" },
+	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
+	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
+	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
+};
+
+static void print_help(FILE *stream)
+{
+	(void)fprintf(stream, "batten %s: fairs ship hulls in bulk\n\nusage: batten COMMAND [OPTION ...]\n\n",
+	              batten_version());
+	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
+		(void)fprintf(stream, "  %-10s %s\n", subcommands[i].name, subcommands[i].summary);
+	(void)fputs("\n'batten COMMAND --help' tells more, each with an example:\n"
+	            "  batten fair data/hulls/npl_parent.csv --out demo\n"
+	            "\nexit codes: 0 done; 1 done, but not all converged; 2 usage; 3 input invalid;\n"
+	            "4 device absent or lost; 5 kernel build or self-test failed; 6 input/output error or\n"
+	            "a package missing; 70 internal error or out of memory; 75 interrupted\n",
+	            stream);
+}
+
+/* What was printed must have arrived: a full disk behind stdout is an error too. */
+static int finish(batten_status status)
+{
+	if ((fflush(stdout) != 0 || ferror(stdout)) && status == BATTEN_OK) {
+		(void)fputs("batten: standard output cannot be written\n", stderr);
+		status = BATTEN_IO;
+	}
+	return batten_status_exit_code(status);
+}
+
+int main(int argc, char **argv)
+{
+	if (argc < 2) {
+		print_help(stderr);
+		return batten_status_exit_code(BATTEN_USAGE);
+	}
+	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+		print_help(stdout);
+		return finish(BATTEN_OK);
+	}
+	if (strcmp(argv[1], "--version") == 0) {
+		(void)printf("batten %s\n", batten_version());
+		return finish(BATTEN_OK);
+	}
+	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
+		if (strcmp(argv[1], subcommands[i].name) == 0)
+			return finish(subcommands[i].run(argc - 1, argv + 1));
+	(void)fprintf(stderr, "batten: found '%s', a command was expected: fair, measure, devices, selftest\n",
+	              argv[1]);
+	return batten_status_exit_code(BATTEN_USAGE);
+}
