@@ -16,6 +16,7 @@ typedef struct batch {
 	double *y_m;
 	batten_search_result *results;
 	search_queue queue;
+	size_t worker_count;
 } batch;
 
 /* One thread: a device, or (engine NULL) the C path. */
@@ -40,9 +41,20 @@ static batten_status run_on_reference(batch *b)
 	return status;
 }
 
+/* A full launch, but no more than this worker's share of the batch: a small batch is split over the
+ * devices too. */
+static size_t block_size(const batch *b, const search_engine *engine)
+{
+	const size_t lanes = search_engine_shape(engine)->lanes;
+	const size_t share = (b->queue.count + b->worker_count - 1) / b->worker_count;
+	const size_t whole = (share + lanes - 1) / lanes * lanes;
+	const size_t full = search_engine_block(engine, b->plan);
+	return whole < full ? whole : full;
+}
+
 static batten_status run_on_device(batch *b, search_engine *engine)
 {
-	const size_t most = search_engine_block(engine, b->plan);
+	const size_t most = block_size(b, engine);
 	size_t *which = batten_allocate(b->context, most, sizeof *which);
 	batten_status status = which ? BATTEN_OK : BATTEN_MEMORY;
 	while (status == BATTEN_OK) {
@@ -236,18 +248,17 @@ static batten_status count_probes(const batch *b, size_t count)
 static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
 {
 	worker workers[WORKER_LIMIT] = { 0 };
-	size_t worker_count = 0;
 	size_t *order = batten_allocate(b->context, count, sizeof *order);
 	if (!order)
 		return BATTEN_MEMORY;
 	batten_status status = search_queue_create(b->context, order, order_problems(b, count, order),
 	                                           &b->queue);
 	if (status == BATTEN_OK)
-		status = choose_workers(b, workers, &worker_count, run);
+		status = choose_workers(b, workers, &b->worker_count, run);
 	if (status == BATTEN_OK) {
 		const double begun = batten_wall_seconds();
-		run_workers(workers, worker_count);
-		status = finish(b, workers, worker_count, run);
+		run_workers(workers, b->worker_count);
+		status = finish(b, workers, b->worker_count, run);
 		run->seconds = batten_wall_seconds() - begun;
 	}
 	if (status == BATTEN_OK)

@@ -68,10 +68,12 @@ batten_status batten_file_open(batten_context *context, const char *path, batten
 		batten_file_abandon(context, &file);
 		return BATTEN_MEMORY;
 	}
+	/* A rename would put a plain file in the place of a device or a pipe. */
 	struct stat facts;
-	if (stat(path, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+	if (stat(path, &facts) == 0 && !S_ISREG(facts.st_mode)) {
 		batten_file_abandon(context, &file);
-		return batten_fail(context, BATTEN_IO, "%s: is a folder, a file was expected", path);
+		return batten_fail(context, BATTEN_IO, "%s: is %s, a file was expected", path,
+		                   S_ISDIR(facts.st_mode) ? "a folder" : "no plain file");
 	}
 	(void)snprintf(file.temporary, size, "%s.XXXXXX", path);
 	int descriptor = mkstemp(file.temporary);

@@ -51,10 +51,12 @@ bool batten_number_read(const char *text, size_t length, double *out)
 	/* The decimal point of the calling program's locale, so that strtod reads ours. */
 	char *point = memchr(copy, '.', length);
 	const char *local = localeconv()->decimal_point;
-	if (point && local[0] != '.') {
-		if (local[1] != '\0')
+	const size_t size = strlen(local);
+	if (point && strcmp(local, ".") != 0) {
+		if (length + size >= sizeof copy)
 			return false;
-		*point = local[0];
+		memmove(point + size, point + 1, strlen(point + 1) + 1);
+		memcpy(point, local, size);
 	}
 	double value = strtod(copy, NULL);
 	if (!isfinite(value))
@@ -75,9 +77,12 @@ char *batten_number_write(char buffer[BATTEN_NUMBER_SIZE], double value)
 		if (strtod(buffer, NULL) == value)
 			break;
 	}
-	char *point = strstr(buffer, localeconv()->decimal_point);
-	if (point)
+	const char *local = localeconv()->decimal_point;
+	char *point = strstr(buffer, local);
+	if (point) {
 		*point = '.';
+		memmove(point + 1, point + strlen(local), strlen(point + strlen(local)) + 1);
+	}
 	return buffer;
 }
 

@@ -52,8 +52,8 @@ static batten_status bound_node(batten_context *context, const batten_hull *hull
 
 static bool is_variable(const batten_hull *hull, size_t node)
 {
-	return hull->nodes[node] == BATTEN_NODE_UNKNOWN ||
-	       (hull->nodes[node] == BATTEN_NODE_GIVEN && hull->y_m[node] > 0.0);
+	/* A '?' that fills to 0 lies on the profile, as a 0 does. */
+	return hull->nodes[node] != BATTEN_NODE_OUTSIDE && hull->y_m[node] > 0.0;
 }
 
 static void hold(fairing_box *box, const batten_hull *hull, size_t node)

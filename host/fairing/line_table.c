@@ -1,5 +1,5 @@
-/* All lines of a hull with their fairness: stations, waterlines, and buttocks and diagonals cut out of
- * the sections (thesis 4.4). */
+/* All lines of a hull with their fairness: stations, waterlines, and buttocks and diagonals cut out
+ * of the sections (thesis 4.4). */
 #include "batten.h"
 #include "core/spline.h"
 #include "fairing/lines.h"
@@ -39,23 +39,29 @@ static void place_cuts(const batten_hull *hull, struct cuts *cuts)
 }
 
 /* Height between points i and i + 1 of a section where y + lean z = wanted, which lies between the
- * values at both. Bisection to the last bit: 64 halvings at most. */
+ * values at both. Newton's steps, halving where one would leave the bracket. */
 static double crossing(const struct spline *shape, size_t i, double lean, double wanted)
 {
-	double low = shape->x[i], high = shape->x[i + 1];
-	for (int k = 0; k < 64 && low < high; k++) {
-		double middle = 0.5 * (low + high);
-		if (spline_value(shape, middle) + lean * middle < wanted)
-			low = middle;
+	double low = shape->x[i], high = shape->x[i + 1], at = 0.5 * (low + high);
+	double enough = 1e-15 * (high - low) + 4e-16 * fmax(fabs(low), fabs(high));
+	for (int k = 0; k < 64 && high - low > enough; k++) {
+		double excess = spline_value(shape, at) + lean * at - wanted;
+		if (excess < 0)
+			low = at;
 		else
-			high = middle;
+			high = at;
+		double next = at - excess / (spline_slope(shape, at) + lean);
+		if (fabs(next - at) <= enough)
+			return at;
+		at = next > low && next < high ? next : 0.5 * (low + high);
 	}
-	return 0.5 * (low + high);
+	return at;
 }
 
-/* Lowest heights at which a section crosses y + lean z = at[k], at ascending, lean 0 or 1; NaN where it
- * does not. A section that begins outside of the line is taken to have a flat bottom there. All
- * values up to the largest one met so far are found, so every interval is looked at once. */
+/* Lowest heights at which a section crosses y + lean z = at[k], at ascending, lean 0 or 1; NaN
+ * where it does not. A section that begins outside of the line is taken to have a flat bottom
+ * there. All values up to the largest one met so far are found, so every interval is looked at
+ * once. */
 static void cut_section(const struct spline *shape, double lean, size_t count, const double *at,
                         double *height)
 {

@@ -33,13 +33,13 @@ typedef struct lines_sum {
 lines_sum lines_of_points(const batten_hull *hull, bool waterline, size_t line,
                           const hull_line *points);
 
-/* The same over all waterlines, or all sections, of a hull; '?' cells are no points. fn is NaN where
- * no line has an interior point. */
+/* The same over all waterlines, or all sections, of a hull; '?' cells are no points. fn is NaN
+ * where no line has an interior point. */
 batten_status lines_of_hull(const batten_hull *hull, bool waterlines, lines_sum *out);
 
-/* Last point of the piece of a line that begins at point first, and where the next piece begins: the
- * same point where a knuckle is a point of the line, the next one where it, or an empty cell, lies
- * between two. Pieces end at count - 1. */
+/* Last point of the piece of a line that begins at point first, and where the next piece begins:
+ * the same point where a knuckle is a point of the line, the next one where it, or an empty cell,
+ * lies between two. Pieces end at count - 1. */
 size_t lines_piece_end(const batten_hull *hull, bool waterline, size_t line,
                        const hull_line *points, size_t first, size_t *next);
 

@@ -1,5 +1,5 @@
-/* Every measure of a hull, by name: hydrostatics, fairness, energies, noise; and how far one hull is
- * from another. */
+/* Every measure of a hull, by name: hydrostatics, fairness, energies, noise; and how far one hull
+ * is from another. */
 #include "batten.h"
 #include "fairing/lines.h"
 #include "fairing/noise.h"

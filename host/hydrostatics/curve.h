@@ -1,5 +1,5 @@
-/* A line as a curve that can be integrated by each of the quadrature rules: sections, waterlines and
- * curves of sections along the ship. */
+/* A line as a curve that can be integrated by each of the quadrature rules: sections, waterlines
+ * and curves of sections along the ship. */
 #ifndef BATTEN_HYDROSTATICS_CURVE_H
 #define BATTEN_HYDROSTATICS_CURVE_H
 
@@ -21,7 +21,8 @@ typedef struct curve {
 	struct spline *pieces; /* none below two points */
 } curve;
 
-/* Copies count >= 1 points; breaks (enum curve_break, [count]) may be NULL. Errors: MEMORY, USAGE. */
+/* Copies count >= 1 points; breaks (enum curve_break, [count]) may be NULL. Errors: MEMORY,
+ * USAGE. */
 batten_status curve_create(batten_context *context, size_t count, const double *at,
                            const double *value, const unsigned char *breaks, enum spline_ends ends,
                            curve *out);
@@ -34,8 +35,8 @@ double curve_slope(const curve *line, double at);
 /* By the straight line between the neighbours. */
 double curve_value_straight(const curve *line, double at);
 
-/* Where a rule takes a curve's value, and with what weight: an integral of f(at, value) is the sum of
- * weight * f. */
+/* Where a rule takes a curve's value, and with what weight: an integral of f(at, value) is the sum
+ * of weight * f. */
 typedef struct curve_nodes {
 	size_t count;
 	double *at, *weight, *value;

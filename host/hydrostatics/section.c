@@ -29,8 +29,8 @@ static void mark_breaks(const batten_hull *hull, bool waterline, size_t line,
 	}
 }
 
-/* Drops zeros that stand before another zero, at both ends: the hull begins and ends at the one next
- * to a positive half-breadth. A line of zeros only is kept. */
+/* Drops zeros that stand before another zero, at both ends: the hull begins and ends at the one
+ * next to a positive half-breadth. A line of zeros only is kept. */
 static void trim_zeros(const hull_line *points, size_t *first, size_t *count)
 {
 	size_t begin = 0, end = points->count;
@@ -130,8 +130,8 @@ section_ends section_ends_at(const section_source *source, double z_m)
 }
 
 /* Where the edge of the hull crosses station x between waterline line, which reaches the station,
- * and the one below it, which ends in a profile point before it; NaN where the hull has a flat bottom
- * there instead. y and z are the section's two lowest points. */
+ * and the one below it, which ends in a profile point before it; NaN where the hull has a flat
+ * bottom there instead. y and z are the section's two lowest points. */
 static double edge_height(const section_source *source, double x_m, size_t line, size_t count,
                           const double *z, const double *y)
 {

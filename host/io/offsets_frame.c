@@ -133,8 +133,8 @@ static double round_to_digits(double value, int digits)
 static bool find_file_number(const batten_hull *hull, double metres, double estimate,
                              conversion *in, double *out)
 {
-	/* A scale keeps all digits, so 15 find every shorter number too. A shifted origin makes the last
-	 * digits meaningless: there the fewest are looked for. */
+	/* A scale keeps all digits, so 15 find every shorter number too. A shifted origin makes the
+	 * last digits meaningless: there the fewest are looked for. */
 	int first = in == offsets_length_in ? 15 : 1;
 	for (int digits = first; digits < 17; digits++) {
 		*out = round_to_digits(estimate, digits);

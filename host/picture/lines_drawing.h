@@ -21,8 +21,8 @@ typedef struct lines_style {
 
 /* How one line lies in a plan: its place along runs up (sections) or to the right (waterlines), its
  * half-breadth the other way. */
-batten_status lines_draw_line(cairo_t *cairo, const batten_hull *hull, bool waterline, size_t line,
-                              const lines_plan *plan, const lines_style *style);
+batten_status lines_draw_line(cairo_t *cairo, const batten_hull *hull, bool waterline,
+                              size_t number, const lines_plan *plan, const lines_style *style);
 
 /* The two ends of a line: places and half-breadths. False: it has no point. */
 typedef struct line_ends {

@@ -207,7 +207,7 @@ void surface_lines_destroy(surface_lines *lines)
 {
 	if (!lines)
 		return;
-	for (size_t k = 0; k < lines->count; k++) {
+	for (size_t k = 0; lines->lines && k < lines->count; k++) {
 		batten_release(lines->context, lines->lines[k].along_m);
 		batten_release(lines->context, lines->lines[k].open_after);
 	}

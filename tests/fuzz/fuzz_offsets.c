@@ -2,7 +2,7 @@
  * written and read back unchanged; what it refuses must come with a message that names the place.
  *
  *   clang -fsanitize=fuzzer,address,undefined ...            libFuzzer
- *   fuzz_offsets FILE ...   (with BATTEN_FUZZ_STANDALONE)    the files, and changed copies of them */
+ *   fuzz_offsets FILE ...   (with BATTEN_FUZZ_STANDALONE)  the files, and changed copies of them */
 #include "batten.h"
 
 #include <math.h>

@@ -328,8 +328,7 @@ static void places(void **state)
 
 static void unknown_nodes_are_filled(void **state)
 {
-	/* The natural spline through (0,0), (1,1), (2,0): at 0.5, and straight on to 3, where it is below
-	 * 0. */
+	/* The natural spline through (0,0), (1,1), (2,0): at 0.5, and straight on to 3, below 0. */
 	batten_hull *hull = parse(*state, "# layout: grid\nz\\x,0,0.5,1,2,3\n"
 	                                  "0,0,?,1,0,?\n3,0,2,1,1,1\n");
 	assert_true(fabs(hull->y_m[1] - 0.6875) < 1e-15);

@@ -296,8 +296,8 @@ static void changes_are_against_the_reference(void **state)
 	batten_context_destroy(context);
 }
 
-/* A hull with a knuckle at x = 8 on every waterline: unfair where the knuckle is not named, straight
- * where it is. */
+/* A hull with a knuckle at x = 8 on every waterline: unfair where the knuckle is not named,
+ * straight where it is. */
 static void lines_break_at_knuckles(void **state)
 {
 	(void)state;

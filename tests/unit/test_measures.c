@@ -181,8 +181,8 @@ static void wigley_by_trapezoids(void **state)
 	}
 }
 
-/* At any draft, on a waterline or between two, the splines hold the sections exactly: everything that
- * the splines along x do not enter is exact, the rest in proportion to the full draft. */
+/* At any draft, on a waterline or between two, the splines hold the sections exactly: everything
+ * that the splines along x do not enter is exact, the rest in proportion to the full draft. */
 static void wigley_at_other_drafts(void **state)
 {
 	(void)state;
@@ -307,8 +307,8 @@ static void wedge_by_every_rule(void **state)
 	}
 }
 
-/* Plane sides, a wedge aft that a raked stem brings to a point: y = B/2 (z/T - x/L). On the grid the
- * edge passes through nodes. */
+/* Plane sides, a wedge aft that a raked stem brings to a point: y = B/2 (z/T - x/L). On the grid
+ * the edge passes through nodes. */
 static double raked(double x, double z)
 {
 	double y = 5 * (z / 4 - x / 60);
@@ -345,8 +345,8 @@ static void raked_stem(void **state)
 	}
 }
 
-/* The same body in the long layout: each waterline ends where the stem is, off the stations, and the
- * sections begin where the stem crosses them, between two waterlines. */
+/* The same body in the long layout: each waterline ends where the stem is, off the stations, and
+ * the sections begin where the stem crosses them, between two waterlines. */
 static void raked_stem_off_the_stations(void **state)
 {
 	(void)state;
@@ -423,7 +423,8 @@ static double ellipsoid(double x, double z)
 	return inside >= -1e-12 ? 5 * sqrt(fmax(0, inside)) : NAN;
 }
 
-/* No node lies on its edge, so that what is between the last nodes and the edge is lost: order 1. */
+/* No node lies on its edge, so that what is between the last nodes and the edge is lost: order
+ * 1. */
 static void semi_ellipsoid(void **state)
 {
 	(void)state;

@@ -1,5 +1,5 @@
-/* The measures of the shipped hulls against the figures that were printed for them, and the energies
- * against sums written out. */
+/* The measures of the shipped hulls against the figures that were printed for them, and the
+ * energies against sums written out. */
 #include "batten.h"
 
 #include <math.h>
@@ -131,8 +131,8 @@ static double plane(double x, double z)
 	return 0.25 + 0.1 * x + 0.5 * z;
 }
 
-/* Forms whose derivatives the three-point stencils hold exactly: the sums over the inner nodes can be
- * written out. */
+/* Forms whose derivatives the three-point stencils hold exactly: the sums over the inner nodes can
+ * be written out. */
 static void energies(void **state)
 {
 	(void)state;

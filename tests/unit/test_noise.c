@@ -60,7 +60,8 @@ static double uniform(uint64_t *state)
 	return (double)(z >> 11) * 0x1p-53;
 }
 
-/* The hull of a form, L = 16, half-beam 0.8, D = 1, with noise uniform in +-amplitude where y > 0. */
+/* The hull of a form, L = 16, half-beam 0.8, D = 1, with noise uniform in +-amplitude where y >
+ * 0. */
 static batten_hull *make_hull(batten_context *context, form *surface, size_t nx, size_t nz,
                               double amplitude, uint64_t seed)
 {
@@ -135,8 +136,8 @@ static void smooth_hulls_have_next_to_none(void **state)
 			            1e-4 * 0.8);
 }
 
-/* One table of 21 x 20 tells the noise within about 8 % (one standard deviation); the mean of many is
- * not biased. */
+/* One table of 21 x 20 tells the noise within about 8 % (one standard deviation); the mean of many
+ * is not biased. */
 static void noise_put_in_comes_out(void **state)
 {
 	(void)state;

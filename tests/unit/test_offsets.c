@@ -132,7 +132,7 @@ static void assert_same(const batten_hull *a, const batten_hull *b)
 		            a->knuckles[i].z_m == b->knuckles[i].z_m);
 }
 
-/* Writes, reads, compares, writes again and compares the two texts. Returns the text, to be freed. */
+/* Writes, reads, compares, writes again, compares the texts. Returns the text, to be freed. */
 static char *round_trip(const struct fixture *fixture, const batten_hull *hull)
 {
 	char first[256];

@@ -1,4 +1,5 @@
-/* The quadrature rules on one line, against closed forms (Letcher 9: conditions of Simpson's rule). */
+/* The quadrature rules on one line, against closed forms (Letcher 9: conditions of Simpson's
+ * rule). */
 #include "hydrostatics/curve.h"
 
 #include <math.h>

@@ -1,0 +1,63 @@
+/* Whole searches in every shape of the kernel, lanes and work-items, local and global state, both
+ * precisions, equal the C path bit for bit. */
+#include "support/search_equal.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static void check(const search_shape *shapes, size_t count)
+{
+	static const char *const hulls[] = { "npl_parent", "bsra_trawler" };
+	for (size_t h = 0; h < sizeof hulls / sizeof hulls[0]; h++) {
+		search_case c = search_case_open(hulls[h], 0.01, true);
+		for (size_t s = 0; s < count; s++)
+			search_equal_check(&c, &shapes[s]);
+		search_case_close(&c);
+	}
+}
+
+static void test_lanes(void **state)
+{
+	(void)state;
+	static const search_shape shapes[] = {
+		{ 0, BATTEN_F64, 1, 1, false },  { 0, BATTEN_F64, 2, 1, false }, { 0, BATTEN_F64, 4, 1, false },
+		{ 0, BATTEN_F64, 16, 1, false }, { 0, BATTEN_F32, 1, 1, false }, { 0, BATTEN_F32, 8, 1, false },
+	};
+	check(shapes, sizeof shapes / sizeof shapes[0]);
+}
+
+static void test_work_groups(void **state)
+{
+	(void)state;
+	static const search_shape shapes[] = {
+		{ 0, BATTEN_F64, 1, 7, false },
+		{ 0, BATTEN_F64, 1, 64, false },
+		{ 0, BATTEN_F64, 4, 3, false },
+		{ 0, BATTEN_F32, 1, 32, false },
+	};
+	check(shapes, sizeof shapes / sizeof shapes[0]);
+}
+
+static void test_global_state(void **state)
+{
+	(void)state;
+	static const search_shape shapes[] = {
+		{ 0, BATTEN_F64, 8, 1, true },
+		{ 0, BATTEN_F64, 1, 16, true },
+		{ 0, BATTEN_F32, 16, 1, true },
+	};
+	check(shapes, sizeof shapes / sizeof shapes[0]);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_lanes),
+		cmocka_unit_test(test_work_groups),
+		cmocka_unit_test(test_global_state),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

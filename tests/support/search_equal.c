@@ -1,0 +1,73 @@
+#include "support/search_equal.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+void search_equal_problems(const search_case *c, batten_search_problem problems[EQUAL_COUNT])
+{
+	for (int p = 0; p < EQUAL_COUNT; p++)
+		problems[p] = search_case_problem(c, 1.0, pow(10.0, 1.0 + 0.3 * p));
+}
+
+void search_equal_compare(const search_case *c, const double *y, const batten_search_result *results,
+                          const double *known_y, const batten_search_result *known)
+{
+	for (size_t p = 0; p < EQUAL_COUNT; p++) {
+		assert_memory_equal(&results[p].objective_start, &known[p].objective_start, sizeof(double));
+		assert_memory_equal(&results[p].objective_end, &known[p].objective_end, sizeof(double));
+		assert_memory_equal(&results[p].last_step_m, &known[p].last_step_m, sizeof(double));
+		assert_int_equal(results[p].iterations, known[p].iterations);
+		assert_int_equal(results[p].end, known[p].end);
+	}
+	assert_memory_equal(y, known_y, EQUAL_COUNT * c->nodes * sizeof *y);
+}
+
+static void run_engine(const search_case *c, const search_shape *shape,
+                       const batten_search_problem *problems, double *y,
+                       batten_search_result *results)
+{
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.precision = shape->precision;
+	search_plan *plan = NULL;
+	search_engine *engine = NULL;
+	size_t which[EQUAL_COUNT];
+	for (size_t p = 0; p < EQUAL_COUNT; p++)
+		which[p] = p;
+	assert_int_equal(search_plan_create(c->context, &c->grid, EQUAL_COUNT, problems, &options, &plan),
+	                 BATTEN_OK);
+	if (search_engine_open(c->context, shape, &engine, NULL) != BATTEN_OK ||
+	    search_engine_run(engine, plan, problems, which, EQUAL_COUNT, y, results) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(c->context));
+	assert_true(search_engine_is_strict(engine));
+	search_plan_destroy(plan);
+}
+
+void search_equal_check(const search_case *c, const search_shape *shape)
+{
+	batten_search_problem problems[EQUAL_COUNT];
+	batten_search_result results[EQUAL_COUNT];
+	batten_search_result known[EQUAL_COUNT];
+	double *y = calloc(EQUAL_COUNT * c->nodes, sizeof *y);
+	double *known_y = calloc(EQUAL_COUNT * c->nodes, sizeof *known_y);
+	assert_non_null(y);
+	assert_non_null(known_y);
+	search_equal_problems(c, problems);
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.device = BATTEN_DEVICE_REFERENCE;
+	options.precision = shape->precision;
+	const batten_status status = batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems,
+	                                                 &options, known_y, known, NULL);
+	assert_int_equal(status, BATTEN_OK);
+	run_engine(c, shape, problems, y, results);
+	search_equal_compare(c, y, results, known_y, known);
+	free(y);
+	free(known_y);
+}
