@@ -145,6 +145,8 @@ static json_t *search_json(const fair_job *job)
 	set(object, "objective_before", number(result->objective_start));
 	set(object, "objective_after", number(result->objective_end));
 	set(object, "last_step_m", number(result->last_step_m));
+	/* Known only to methods that see the curvature of the objective; this one probes values. */
+	set(object, "gap_estimate", json_null());
 	set(object, "device", json_string(run->device));
 	set(object, "strict", json_boolean(run->strict));
 	set(object, "precision", json_string(job->request->precision == BATTEN_F64 ? "f64" : "f32"));

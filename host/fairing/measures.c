@@ -163,6 +163,9 @@ batten_status batten_hull_measure(batten_context *context, const batten_hull *hu
 	double draft = chosen.draft_m > 0 ? chosen.draft_m : hull->draft_m;
 	hydrostatics body;
 	status = hydrostatics_calculate(context, hull, draft, chosen.quadrature, &body);
+	/* Nobody asked for this draft: the file is at fault. */
+	if (status == BATTEN_USAGE && chosen.draft_m == 0)
+		return BATTEN_INPUT;
 	if (status != BATTEN_OK)
 		return status;
 	batten_measures made = { 0 };

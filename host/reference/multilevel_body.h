@@ -52,6 +52,9 @@ static scalar moved_node(const search_state *s, const hat_move *move, int statio
 	const size_t node = node_of(s, station, waterline);
 	const scalar height = hat_height(station - move->station, move->inverse_x) *
 	                      hat_height(waterline - move->waterline, move->inverse_z);
+	/* Most nodes of a direction's stencils lie beside its hat. */
+	if (height == LITERAL(0.0))
+		return s->y[node];
 	return move_clamped(s->y[node], height * move->step, s->lower[node], s->upper[node]);
 }
 

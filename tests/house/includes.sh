@@ -23,8 +23,8 @@ hydrostatics  core hull geometry batch shared
 variation     core hull geometry batch shared
 fairing       core hull geometry batch hydrostatics shared
 sweep         core hull geometry batch io picture ray hydrostatics variation fairing shared
-cli
 bench
+cli           bench
 data
 oracle
 support       core hull device reference batch geometry io picture ray hydrostatics variation fairing
@@ -41,7 +41,7 @@ cairo     picture
 png.h     picture test
 jansson.h cli sweep io test
 xxhash.h  device
-cmocka.h  test
+cmocka.h  test support
 nlopt.h   test oracle
 lbfgs.h   test oracle
 Random123 data test
@@ -109,6 +109,7 @@ function target_of(file, name, folder, first) {
 	if (exists("kernels/" name)) return room_of("kernels/" name)
 	if (exists("tests/" name)) return room_of("tests/" name)
 	if (exists("host/" name)) return room_of("host/" name)
+	if (exists("bench/" name)) return room_of("bench/" name)
 	return "nowhere"
 }
 

@@ -1,0 +1,50 @@
+/* What the benchmarks share: rows of results, and pairs of timings. May use batten.h. */
+#ifndef BATTEN_BENCH_BENCH_H
+#define BATTEN_BENCH_BENCH_H
+
+#include "batten.h"
+
+/* One figure: value and the reference's in the same unit, both medians; ratio: the median over pairs
+ * of how many times faster than the reference, with its 95 % interval. */
+typedef struct bench_row {
+	char name[48], case_name[48], device[128];
+	batten_precision precision;
+	const char *unit, *reference;
+	double value, reference_value;
+	double ratio, ratio_low, ratio_high;
+} bench_row;
+
+typedef struct bench_settings {
+	batten_context *context;
+	bool full;  /* the tables of bench/README.md instead of a quick look */
+	int device; /* as in batten_search_options */
+	/* Called with each row as it is made. */
+	void (*emit)(const bench_row *row, void *user);
+	void *user;
+} bench_settings;
+
+/* Every benchmark; NULL name ends the list. */
+typedef struct bench_entry {
+	const char *name, *summary;
+	batten_status (*run)(const bench_settings *settings);
+} bench_entry;
+extern const bench_entry bench_entries[];
+
+batten_status bench_search_multilevel(const bench_settings *settings);
+
+/* ---- pairs ---- */
+enum { BENCH_PAIRS = 7 };
+
+/* Timings of interleaved pairs A, B, A, B ... */
+typedef struct bench_pairs {
+	double value[BENCH_PAIRS], reference[BENCH_PAIRS];
+} bench_pairs;
+
+/* Fills value, reference_value, ratio and its interval from pairs of seconds times scale. */
+void bench_pairs_judge(const bench_pairs *pairs, double scale, bench_row *row);
+
+/* CPU seconds of the whole process; wall seconds. */
+double bench_cpu_seconds(void);
+double bench_wall_seconds(void);
+
+#endif

@@ -1,0 +1,147 @@
+/* search.multilevel: a batch of noisy Wigley hulls, whole searches, on the device against the plain C
+ * path on one core's worth of CPU time. The case is the one of the literature notes in bench/README.md:
+ * 21 x 20 offsets, L 16, B 1.6, D 1 m, noise 0.01 m, every offset free in 0 .. B/2. */
+#include "bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STATIONS = 21, WATERLINES = 20, NODES = STATIONS * WATERLINES };
+
+typedef struct workload {
+	size_t count;
+	double x[STATIONS], z[WATERLINES], lower[NODES], upper[NODES];
+	double *start, *y, *known_y;
+	batten_search_problem *problems;
+	batten_search_result *results, *known;
+} workload;
+
+static void workload_release(workload *w)
+{
+	free(w->start);
+	free(w->y);
+	free(w->known_y);
+	free(w->problems);
+	free(w->results);
+	free(w->known);
+}
+
+static bool workload_create(size_t count, double w2, workload *w)
+{
+	*w = (workload){ .count = count };
+	w->start = calloc(count * NODES, sizeof *w->start);
+	w->y = calloc(count * NODES, sizeof *w->y);
+	w->known_y = calloc(count * NODES, sizeof *w->known_y);
+	w->problems = calloc(count, sizeof *w->problems);
+	w->results = calloc(count, sizeof *w->results);
+	w->known = calloc(count, sizeof *w->known);
+	if (!w->start || !w->y || !w->known_y || !w->problems || !w->results || !w->known)
+		return false;
+	for (int i = 0; i < STATIONS; i++)
+		w->x[i] = 0.8 * i;
+	for (int k = 0; k < WATERLINES; k++)
+		w->z[k] = k / 19.0;
+	for (size_t h = 0; h < count; h++) {
+		uint32_t state = 2654435761u * (uint32_t)(h + 1);
+		for (int n = 0; n < NODES; n++) {
+			state = state * 1664525u + 1013904223u;
+			const double u = (w->x[n % STATIONS] - 8.0) / 8.0;
+			const double v = 1.0 - w->z[n / STATIONS];
+			const double y = 0.8 * (1.0 - u * u) * (1.0 - v * v) +
+			                 0.02 * ((double)(state >> 8) / (1u << 24) - 0.5);
+			w->start[h * NODES + (size_t)n] = y < 0.0 ? 0.0 : y > 0.8 ? 0.8 : y;
+			w->upper[n] = 0.8;
+		}
+		w->problems[h] = (batten_search_problem){ .start_m = w->start + h * NODES,
+			                                      .target_m = w->start + h * NODES,
+			                                      .lower_m = w->lower,
+			                                      .upper_m = w->upper,
+			                                      .w1 = 1.0,
+			                                      .w2 = w2,
+			                                      .half_beam_m = 0.8 };
+	}
+	return true;
+}
+
+/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
+static batten_status timed(const bench_settings *settings, const workload *w, int device,
+                           batten_precision precision, double *y, batten_search_result *results,
+                           batten_search_run *run, bool wall, double *seconds)
+{
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.device = device;
+	options.precision = precision;
+	const batten_grid grid = { STATIONS, WATERLINES, w->x, w->z };
+	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
+	const batten_status status = batten_search_batch(settings->context, &grid, w->count, w->problems,
+	                                                 &options, y, results, run);
+	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
+	return status;
+}
+
+static bool is_cpu(const bench_settings *settings)
+{
+	batten_device device;
+	const size_t index = settings->device >= 0 ? (size_t)settings->device : 0;
+	return batten_device_count(settings->context, NULL) == 0 ||
+	       batten_device_describe(settings->context, index, &device) != BATTEN_OK || device.is_cpu;
+}
+
+static batten_status run_case(const bench_settings *settings, double raw_w2,
+                              batten_precision precision)
+{
+	workload w;
+	bench_pairs pairs;
+	batten_search_run run;
+	bench_row row = { .precision = precision, .unit = "us per hull", .reference = "reference" };
+	/* Literature quotes w2 in raw metres; dimensionless it is h^4 = 0.4096 times that. */
+	if (!workload_create(settings->full ? 64 : 16, raw_w2 * 0.4096, &w)) {
+		workload_release(&w);
+		return BATTEN_MEMORY;
+	}
+	const bool wall = !is_cpu(settings);
+	double seconds = 0.0;
+	/* Warm-up, and the proof that both do the same. */
+	batten_status status = timed(settings, &w, settings->device, precision, w.y, w.results, &run, wall,
+	                             &seconds);
+	if (status == BATTEN_OK)
+		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL, wall,
+		               &seconds);
+	if (status == BATTEN_OK && run.strict &&
+	    memcmp(w.y, w.known_y, w.count * NODES * sizeof *w.y) != 0)
+		status = BATTEN_INTERNAL;
+	(void)snprintf(row.name, sizeof row.name, "search.multilevel");
+	(void)snprintf(row.case_name, sizeof row.case_name, "21x20 w %g batch %zu", raw_w2, w.count);
+	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		status = timed(settings, &w, settings->device, precision, w.y, w.results, NULL, wall,
+		               &pairs.value[p]);
+		if (status == BATTEN_OK)
+			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
+			               wall, &pairs.reference[p]);
+	}
+	if (status == BATTEN_OK) {
+		bench_pairs_judge(&pairs, 1e6 / (double)w.count, &row);
+		settings->emit(&row, settings->user);
+	}
+	workload_release(&w);
+	return status;
+}
+
+batten_status bench_search_multilevel(const bench_settings *settings)
+{
+	static const double quick[] = { 1e3 };
+	static const double full[] = { 10.0, 1e2, 1e3, 1e4, 1e5 };
+	const double *weights = settings->full ? full : quick;
+	const size_t count = settings->full ? 5 : 1;
+	for (int precision = 0; precision < 2; precision++)
+		for (size_t w = 0; w < count; w++) {
+			const batten_status status =
+				run_case(settings, weights[w], precision ? BATTEN_F32 : BATTEN_F64);
+			if (status != BATTEN_OK)
+				return status;
+		}
+	return BATTEN_OK;
+}
