@@ -255,8 +255,8 @@ enum { BATTEN_MEASURE_COUNT = (int)(sizeof(batten_measures) / sizeof(double)) };
 BATTEN_API const char *batten_measure_name(size_t i);
 BATTEN_API const char *batten_measure_text(size_t i);
 
-/* options may be NULL. Errors: USAGE (draft outside the table), INPUT (a rule whose conditions do not
- * hold), MEMORY. */
+/* options may be NULL. Errors: USAGE (a draft asked for outside the table), INPUT (the hull's own draft
+ * outside its table, a rule whose conditions do not hold), MEMORY. */
 BATTEN_API batten_status batten_hull_measure(batten_context *context, const batten_hull *hull,
                                              const batten_measure_options *options,
                                              batten_measures *out);
@@ -495,12 +495,14 @@ BATTEN_API batten_status batten_picture_scale(batten_context *context, const bat
                                               double *scale_per_m);
 
 /* Curvature map of the whole hull as PNG, drawn by Vulkan. driver (128 bytes) gets the name of what
- * drew it and may be NULL. Errors: DEVICE (no Vulkan driver), IO, MEMORY. */
+ * drew it and may be NULL. Errors: DEVICE (no Vulkan driver), USAGE (an option out of its range), INPUT
+ * (nothing to draw), IO, MEMORY, INTERNAL. */
 BATTEN_API batten_status batten_picture_curvature(batten_context *context, const batten_hull *hull,
                                                   const batten_picture_options *options,
                                                   const char *path, char *driver);
 
-/* Body plan and waterlines before (may be NULL) and after as SVG. Errors: IO, MEMORY. */
+/* Body plan and waterlines before (may be NULL) and after as SVG. Errors: INPUT (nothing to draw), IO,
+ * MEMORY. */
 BATTEN_API batten_status batten_picture_lines(batten_context *context, const batten_hull *before,
                                               const batten_hull *after, const char *path);
 

@@ -4,12 +4,14 @@
 
 #include <math.h>
 
-/* A line and how it comes on paper. */
+/* A line and how it comes on paper. Of very many points only every so manieth is drawn. */
+enum { POINT_LIMIT = 512 };
 typedef struct drawn_line {
 	const batten_hull *hull;
 	const hull_line *points;
 	bool waterline;
 	const lines_plan *plan;
+	size_t stride;
 } drawn_line;
 
 typedef struct paper_point {
@@ -56,22 +58,28 @@ static paper_point direction_at_end(paper_point a, paper_point b, paper_point at
 		                  2.0 * (b.y - a.y) / length - at_b.y };
 }
 
+static size_t step_from(const drawn_line *line, size_t i, size_t last)
+{
+	return last - i < line->stride ? last : i + line->stride;
+}
+
 /* The curve through points first..last, without holes. */
 static void trace_run(cairo_t *cairo, const drawn_line *line, size_t first, size_t last)
 {
 	paper_point here = point_of(line, first);
 	cairo_move_to(cairo, here.x, here.y);
 	paper_point direction = { 0.0, 0.0 };
-	for (size_t i = first; i < last; i++) {
-		paper_point next = point_of(line, i + 1);
+	for (size_t i = first; i < last;) {
+		size_t next_i = step_from(line, i, last);
+		paper_point next = point_of(line, next_i);
 		double length = distance(here, next);
-		if (last == first + 1) {
+		if (i == first && next_i == last) {
 			cairo_line_to(cairo, next.x, next.y);
 			return;
 		}
 		paper_point at_next = { 0.0, 0.0 };
-		if (i + 1 < last)
-			at_next = direction_at(here, next, point_of(line, i + 2));
+		if (next_i < last)
+			at_next = direction_at(here, next, point_of(line, step_from(line, next_i, last)));
 		else
 			at_next = direction_at_end(here, next, direction);
 		if (i == first)
@@ -81,6 +89,7 @@ static void trace_run(cairo_t *cairo, const drawn_line *line, size_t first, size
 		               next.x - third * at_next.x, next.y - third * at_next.y, next.x, next.y);
 		here = next;
 		direction = at_next;
+		i = next_i;
 	}
 }
 
@@ -127,12 +136,12 @@ batten_status lines_draw_line(cairo_t *cairo, const batten_hull *hull, bool wate
 	batten_status status = hull_line_collect(hull, waterline, number, true, &points);
 	if (status != BATTEN_OK)
 		return status;
-	drawn_line line = { hull, &points, waterline, plan };
+	drawn_line line = { hull, &points, waterline, plan, 1 + points.count / (POINT_LIMIT + 1) };
 	cairo_set_source_rgb(cairo, style->ink.red, style->ink.green, style->ink.blue);
 	cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
 	if (points.count > 0) {
 		draw_curves(cairo, &line, style);
-		if (style->points > 0.0)
+		if (style->points > 0.0 && line.stride == 1)
 			draw_points(cairo, &line, number, style);
 	}
 	hull_line_release(hull, &points);

@@ -8,34 +8,6 @@
 
 enum { LISTED_LIMIT = 8 };
 
-static bool same_table(const batten_hull *a, const batten_hull *b)
-{
-	if (a->station_count != b->station_count || a->waterline_count != b->waterline_count)
-		return false;
-	return memcmp(a->x_m, b->x_m, a->station_count * sizeof *a->x_m) == 0 &&
-	       memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0;
-}
-
-bool lines_page_moved(const lines_page *page, size_t n, moved_point *out)
-{
-	const batten_hull *before = page->before;
-	const batten_hull *after = page->after;
-	if (!before || !same_table(before, after))
-		return false;
-	double least = lines_moved_part * batten_hull_half_beam_m(before) * (1.0 + 1e-9);
-	for (size_t node = 0; node < hull_node_count(after); node++) {
-		if (before->nodes[node] != BATTEN_NODE_GIVEN || after->nodes[node] != BATTEN_NODE_GIVEN ||
-		    !(fabs(after->y_m[node] - before->y_m[node]) > least))
-			continue;
-		if (n-- > 0)
-			continue;
-		*out = (moved_point){ node % after->station_count, node / after->station_count,
-			                  before->y_m[node], after->y_m[node] };
-		return true;
-	}
-	return false;
-}
-
 static void draw_header(const lines_page *page)
 {
 	char title[256];
@@ -66,12 +38,27 @@ static void draw_sample(const lines_page *page, double x, double y, paper_ink in
 	cairo_stroke(page->cairo);
 }
 
+/* Where a moved point lies, from where and to where it moved. */
+static void moved_text(const lines_page *page, size_t node, char *out, size_t size)
+{
+	const lines_box *box = &page->box;
+	const batten_hull *after = page->after;
+	char x[BATTEN_NUMBER_SIZE], z[BATTEN_NUMBER_SIZE];
+	char from[BATTEN_NUMBER_SIZE], to[BATTEN_NUMBER_SIZE];
+	lines_page_number(after->x_m[node % after->station_count], box->x_high - box->x_low, x,
+	                  sizeof x);
+	lines_page_number(after->z_m[node / after->station_count], box->z_high - box->z_low, z,
+	                  sizeof z);
+	lines_page_number(page->before->y_m[node], box->half_beam, from, sizeof from);
+	lines_page_number(after->y_m[node], box->half_beam, to, sizeof to);
+	(void)snprintf(out, size, "x %s, z %s: y %s \u2192 %s", x, z, from, to);
+}
+
 static double draw_moved(const lines_page *page, double left, double y)
 {
-	moved_point point;
 	size_t count = 0;
-	while (lines_page_moved(page, count, &point))
-		count++;
+	for (size_t node = 0; node < hull_node_count(page->after); node++)
+		count += lines_page_moved(page, node);
 	if (count == 0)
 		return y;
 	cairo_set_source_rgb(page->cairo, lines_ink_moved.red, lines_ink_moved.green,
@@ -83,16 +70,13 @@ static double draw_moved(const lines_page *page, double left, double y)
 	char line[256];
 	(void)snprintf(line, sizeof line, "moved more than 1 %% of the half-beam: %zu", count);
 	lines_page_text(page, left + 70.0, y, 19.0, PAPER_LEFT, line);
-	for (size_t n = 0; n < LISTED_LIMIT && lines_page_moved(page, n, &point); n++) {
-		char x[BATTEN_NUMBER_SIZE], z[BATTEN_NUMBER_SIZE];
-		char from[BATTEN_NUMBER_SIZE], to[BATTEN_NUMBER_SIZE];
-		const lines_box *box = &page->box;
-		lines_page_number(page->after->x_m[point.station], box->x_high - box->x_low, x, sizeof x);
-		lines_page_number(page->after->z_m[point.waterline], box->z_high - box->z_low, z, sizeof z);
-		lines_page_number(point.from_m, box->half_beam, from, sizeof from);
-		lines_page_number(point.to_m, box->half_beam, to, sizeof to);
-		(void)snprintf(line, sizeof line, "x %s, z %s: y %s \u2192 %s", x, z, from, to);
+	size_t listed = 0;
+	for (size_t node = 0; listed < count && listed < LISTED_LIMIT; node++) {
+		if (!lines_page_moved(page, node))
+			continue;
+		listed++;
 		y += 27.0;
+		moved_text(page, node, line, sizeof line);
 		lines_page_text(page, left + 70.0, y, 17.0, PAPER_LEFT, line);
 	}
 	if (count > LISTED_LIMIT) {

@@ -10,9 +10,11 @@ const paper_ink lines_ink_before = { 0.96, 0.66, 0.45 };
 const paper_ink lines_ink_grid = { 0.84, 0.86, 0.88 };
 const paper_ink lines_ink_text = { 0.27, 0.30, 0.34 };
 const paper_ink lines_ink_moved = { 0.80, 0.10, 0.10 };
-const double lines_moved_part = 0.01;
 
 static const double label_size = 16.0;
+
+/* Rings drawn at most. */
+enum { RING_LIMIT = 200 };
 
 bool lines_page_room(double *last, double place, double gap)
 {
@@ -38,83 +40,6 @@ void lines_page_text(const lines_page *page, double x, double y, double size, pa
 }
 
 /* ------------------------------------------------------------------------------------------------
- * Layout
- * --------------------------------------------------------------------------------------------- */
-
-static batten_status take_box(const batten_hull *hull, lines_box *box)
-{
-	for (int kind = 0; kind < 2; kind++) {
-		size_t count = kind ? hull->waterline_count : hull->station_count;
-		for (size_t k = 0; k < count; k++) {
-			bool any = false;
-			line_ends ends;
-			batten_status status = lines_find_ends(hull, kind == 1, k, &any, &ends);
-			if (status != BATTEN_OK)
-				return status;
-			if (!any)
-				continue;
-			double *low = kind ? &box->x_low : &box->z_low;
-			double *high = kind ? &box->x_high : &box->z_high;
-			*low = fmin(*low, ends.first_m);
-			*high = fmax(*high, ends.last_m);
-		}
-	}
-	box->half_beam = fmax(box->half_beam, batten_hull_half_beam_m(hull));
-	return BATTEN_OK;
-}
-
-static void place_body_plan(lines_page *page)
-{
-	const lines_box *box = &page->box;
-	picture_rectangle frame = { 100.0, 150.0, 840.0, 410.0 };
-	double height = fmax(box->z_high - box->z_low, 1e-9);
-	double breadth = fmax(box->half_beam, 1e-9);
-	double scale = fmin(frame.width / (2.0 * breadth), frame.height / height);
-	double middle = frame.left + 0.5 * frame.width;
-	double bottom = frame.top + 0.5 * (frame.height + height * scale);
-	page->fore = (lines_plan){ frame, middle, bottom + box->z_low * scale, scale, scale };
-	page->aft = page->fore;
-	page->aft.across = -scale;
-}
-
-/* A plan with x to the right; what goes up may be drawn larger, a whole number of times. */
-static lines_plan place_long_plan(const lines_box *box, picture_rectangle frame, double low,
-                                  double high)
-{
-	double length = fmax(box->x_high - box->x_low, 1e-9);
-	double tall = fmax(high - low, 1e-9);
-	double scale = fmin(frame.width / length, frame.height / tall);
-	double times = fmax(1.0, fmin(4.0, floor(frame.height / (tall * scale))));
-	double middle = 0.5 * (box->x_low + box->x_high);
-	return (lines_plan){
-		.frame = frame,
-		.origin_x = frame.left + 0.5 * frame.width - middle * scale,
-		.origin_y = frame.top + 0.5 * (frame.height + tall * times * scale) + low * times * scale,
-		.across = scale,
-		.up = times * scale,
-	};
-}
-
-batten_status lines_page_lay_out(lines_page *page)
-{
-	page->box = (lines_box){ INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0 };
-	batten_status status = take_box(page->after, &page->box);
-	if (status == BATTEN_OK && page->before)
-		status = take_box(page->before, &page->box);
-	if (status != BATTEN_OK)
-		return status;
-	lines_box *box = &page->box;
-	if (!(box->x_low <= box->x_high && box->z_low <= box->z_high))
-		return batten_fail(page->context, BATTEN_INPUT, "%s: no point to draw", page->after->name);
-	place_body_plan(page);
-	page->half = place_long_plan(box, (picture_rectangle){ 100.0, 655.0, 1440.0, 265.0 }, 0.0,
-	                             box->half_beam);
-	page->profile = place_long_plan(box, (picture_rectangle){ 100.0, 1015.0, 1440.0, 165.0 },
-	                                box->z_low, box->z_high);
-	return BATTEN_OK;
-}
-
-/* ------------------------------------------------------------------------------------------------
  * Grids and labels
  * --------------------------------------------------------------------------------------------- */
 
@@ -136,7 +61,7 @@ static void draw_heights(const lines_page *page, const lines_plan *plan, double 
 {
 	const batten_hull *hull = page->after;
 	double last = -INFINITY;
-	for (size_t j = 0; j < hull->waterline_count; j++) {
+	for (size_t j = 0; j < hull->waterline_count; j += page->waterline_stride) {
 		double y = plan->origin_y - plan->up * hull->z_m[j];
 		set_ink(page, lines_ink_grid, 0.8);
 		trace_segment(page, left, y, right, y);
@@ -153,7 +78,7 @@ static void draw_stations(const lines_page *page, const lines_plan *plan, double
 {
 	const batten_hull *hull = page->after;
 	double last = -INFINITY;
-	for (size_t i = 0; i < hull->station_count; i++) {
+	for (size_t i = 0; i < hull->station_count; i += page->station_stride) {
 		double x = plan->origin_x + plan->across * hull->x_m[i];
 		set_ink(page, lines_ink_grid, 0.8);
 		trace_segment(page, x, top, x, bottom);
@@ -182,11 +107,11 @@ static void draw_ring(const lines_page *page, double x, double y)
  * Body plan
  * --------------------------------------------------------------------------------------------- */
 
-/* The station nearest to amidships: it is drawn on both sides. */
-static size_t midship_station(const batten_hull *hull)
+/* The station nearest to amidships of those drawn: it is drawn on both sides. */
+static size_t midship_station(const lines_page *page, const batten_hull *hull)
 {
 	size_t best = 0;
-	for (size_t i = 1; i < hull->station_count; i++)
+	for (size_t i = 0; i < hull->station_count; i += page->station_stride)
 		if (fabs(hull->x_m[i] - 0.5 * hull->lbp_m) < fabs(hull->x_m[best] - 0.5 * hull->lbp_m))
 			best = i;
 	return best;
@@ -195,9 +120,9 @@ static size_t midship_station(const batten_hull *hull)
 static batten_status draw_sections(const lines_page *page, const batten_hull *hull,
                                    const lines_style *style)
 {
-	size_t middle = midship_station(hull);
+	size_t middle = midship_station(page, hull);
 	batten_status status = BATTEN_OK;
-	for (size_t i = 0; status == BATTEN_OK && i < hull->station_count; i++) {
+	for (size_t i = 0; status == BATTEN_OK && i < hull->station_count; i += page->station_stride) {
 		if (i >= middle)
 			status = lines_draw_line(page->cairo, hull, false, i, &page->fore, style);
 		if (status == BATTEN_OK && i <= middle)
@@ -210,12 +135,14 @@ static batten_status draw_sections(const lines_page *page, const batten_hull *hu
 static batten_status label_sections(const lines_page *page, bool fore)
 {
 	const batten_hull *hull = page->after;
-	size_t middle = midship_station(hull);
+	size_t middle = midship_station(page, hull);
 	size_t count = fore ? hull->station_count - middle : middle + 1;
 	const lines_plan *plan = fore ? &page->fore : &page->aft;
 	double last = -INFINITY;
 	for (size_t k = 0; k < count; k++) {
 		size_t i = fore ? hull->station_count - 1 - k : k;
+		if (i % page->station_stride != 0)
+			continue;
 		bool any = false;
 		line_ends ends;
 		batten_status status = lines_find_ends(hull, false, i, &any, &ends);
@@ -234,14 +161,19 @@ static batten_status label_sections(const lines_page *page, bool fore)
 
 static void ring_sections(const lines_page *page)
 {
-	size_t middle = midship_station(page->after);
-	moved_point point;
-	for (size_t n = 0; lines_page_moved(page, n, &point); n++) {
-		double y = page->fore.origin_y - page->fore.up * page->after->z_m[point.waterline];
-		if (point.station >= middle)
-			draw_ring(page, page->fore.origin_x + page->fore.across * point.to_m, y);
-		if (point.station <= middle)
-			draw_ring(page, page->aft.origin_x + page->aft.across * point.to_m, y);
+	const batten_hull *hull = page->after;
+	size_t middle = midship_station(page, hull);
+	size_t rings = 0;
+	for (size_t node = 0; node < hull_node_count(hull) && rings < RING_LIMIT; node++) {
+		if (!lines_page_moved(page, node))
+			continue;
+		size_t station = node % hull->station_count;
+		double y = page->fore.origin_y - page->fore.up * hull->z_m[node / hull->station_count];
+		const lines_plan *plan = station >= middle ? &page->fore : &page->aft;
+		draw_ring(page, plan->origin_x + plan->across * hull->y_m[node], y);
+		if (station == middle)
+			draw_ring(page, page->aft.origin_x + page->aft.across * hull->y_m[node], y);
+		rings++;
 	}
 }
 
@@ -282,18 +214,32 @@ static batten_status draw_waterlines(const lines_page *page, const batten_hull *
                                      const lines_style *style)
 {
 	batten_status status = BATTEN_OK;
-	for (size_t j = 0; status == BATTEN_OK && j < hull->waterline_count; j++)
+	for (size_t j = 0; status == BATTEN_OK && j < hull->waterline_count;
+	     j += page->waterline_stride)
 		status = lines_draw_line(page->cairo, hull, true, j, &page->half, style);
 	return status;
 }
 
 static bool station_has_ring(const lines_page *page, size_t station)
 {
-	moved_point point;
-	for (size_t n = 0; lines_page_moved(page, n, &point); n++)
-		if (point.station == station)
+	for (size_t j = 0; j < page->after->waterline_count; j++)
+		if (lines_page_moved(page, j * page->after->station_count + station))
 			return true;
 	return false;
+}
+
+static void ring_waterlines(const lines_page *page)
+{
+	const batten_hull *hull = page->after;
+	const lines_plan *plan = &page->half;
+	size_t rings = 0;
+	for (size_t node = 0; node < hull_node_count(hull) && rings < RING_LIMIT; node++) {
+		if (!lines_page_moved(page, node))
+			continue;
+		draw_ring(page, plan->origin_x + plan->across * hull->x_m[node % hull->station_count],
+		          plan->origin_y - plan->up * hull->y_m[node]);
+		rings++;
+	}
 }
 
 /* The station to write the waterlines' heights at: where they lie far apart, about four fifths of
@@ -320,7 +266,7 @@ static void label_waterlines(const lines_page *page)
 		return;
 	double x = plan->origin_x + plan->across * hull->x_m[station];
 	double last = INFINITY;
-	for (size_t j = 0; j < hull->waterline_count; j++) {
+	for (size_t j = 0; j < hull->waterline_count; j += page->waterline_stride) {
 		size_t node = j * hull->station_count + station;
 		double y = plan->origin_y - plan->up * hull->y_m[node];
 		if (hull->nodes[node] == BATTEN_NODE_OUTSIDE || !lines_page_room(&last, y, 24.0))
@@ -357,10 +303,7 @@ static batten_status draw_half_breadths(const lines_page *page)
 	if (status == BATTEN_OK)
 		status = draw_waterlines(page, page->after, &dark);
 	label_waterlines(page);
-	moved_point point;
-	for (size_t n = 0; lines_page_moved(page, n, &point); n++)
-		draw_ring(page, plan->origin_x + plan->across * page->after->x_m[point.station],
-		          plan->origin_y - plan->up * point.to_m);
+	ring_waterlines(page);
 	char caption[160];
 	double times = plan->up / plan->across;
 	if (times > 1.5)

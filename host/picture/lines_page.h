@@ -21,13 +21,9 @@ typedef struct lines_page {
 	lines_plan fore, aft; /* the two sides of the body plan */
 	lines_plan half;      /* half-breadth plan */
 	lines_plan profile;
+	size_t station_stride, waterline_stride; /* of a large table not every line is drawn */
+	bool compared;                           /* before and after are on one table */
 } lines_page;
-
-/* A node that moved more than the part of the half-beam from which points are ringed. */
-typedef struct moved_point {
-	size_t station, waterline;
-	double from_m, to_m;
-} moved_point;
 
 extern const paper_ink lines_ink_after, lines_ink_before, lines_ink_grid, lines_ink_text,
 	lines_ink_moved;
@@ -38,11 +34,11 @@ batten_status lines_page_lay_out(lines_page *page);
 batten_status lines_page_draw_plans(const lines_page *page);
 void lines_page_draw_legend(const lines_page *page);
 
-/* Number n (0 first, in the order of the table) of the points that moved; false beyond the last or
- * when there is nothing to compare with. */
-bool lines_page_moved(const lines_page *page, size_t n, moved_point *out);
+/* Whether a node's half-breadth moved by more than lines_moved_part; false where the hulls cannot
+ * be compared. */
+bool lines_page_moved(const lines_page *page, size_t node);
 
-/* True when number_px is at least gap away from the last label placed; then it becomes the last. */
+/* True when place is at least gap away from the last label; then it becomes the last. */
 bool lines_page_room(double *last, double place, double gap);
 /* A number in shortest form, rounded to a ten-thousandth of the first digit of extent. */
 void lines_page_number(double value_m, double extent_m, char *out, size_t size);

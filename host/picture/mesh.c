@@ -26,6 +26,9 @@ typedef struct mesh_builder {
 	picture_mesh *mesh;
 	size_t vertex_capacity, index_capacity;
 	size_t cuts; /* pieces of each interval, in both directions */
+	/* Of a table finer than any screen only every so manieth line and point is taken. */
+	size_t line_stride, point_stride;
+	size_t below, above; /* numbers of the two lines at work */
 	sample_list strip;
 } mesh_builder;
 
@@ -113,6 +116,17 @@ static bool edge_is_raked(const mesh_builder *builder, const surface_line *lower
 	return hull->layout != HULL_LAYOUT_GRID || points_within(longer, fmin(a, b), fmax(a, b)) == 0;
 }
 
+/* The next point beyond here, from point i on, in strides; the last one ends the run. */
+static size_t point_beyond(const surface_line *line, size_t i, size_t last, double here,
+                           size_t stride)
+{
+	if (line->along_m[i] > here)
+		return i;
+	while (i < last && line->along_m[i] <= here)
+		i++;
+	return last - i < stride ? last : i + stride - 1;
+}
+
 /* The places of the strip between run a of the lower line and run b of the upper one. */
 static bool plan_strip(mesh_builder *builder, const surface_line *lower, run a,
                        const surface_line *upper, run b)
@@ -138,10 +152,8 @@ static bool plan_strip(mesh_builder *builder, const surface_line *lower, run a,
 	size_t i = a.first;
 	size_t j = b.first;
 	while (good && here < to) {
-		while (i < a.last && lower->along_m[i] <= here)
-			i++;
-		while (j < b.last && upper->along_m[j] <= here)
-			j++;
+		i = point_beyond(lower, i, a.last, here, builder->point_stride);
+		j = point_beyond(upper, j, b.last, here, builder->point_stride);
 		double next = fmin(fmin(lower->along_m[i], upper->along_m[j]), to);
 		good = add_samples(builder, (sample){ here, here, 1.0 }, (sample){ next, next, 1.0 }, cuts);
 		here = next;
@@ -188,18 +200,20 @@ static void set_vertex(const surface_lines *lines, double along, double across, 
 	vertex->grid[1] = (float)number_at(hull->z_m, hull->waterline_count, z);
 }
 
-/* The cuts + 1 vertices that join sample i of the strip above line number k. */
-static void spin_rung(const mesh_builder *builder, size_t k, size_t i, picture_vertex *rung)
+/* The cuts + 1 vertices that join the two lines at sample i of the strip. */
+static void spin_rung(const mesh_builder *builder, size_t i, picture_vertex *rung)
 {
 	const surface_lines *lines = builder->lines;
+	size_t below = builder->below;
+	size_t above = builder->above;
 	double from = builder->strip.samples[i].lower;
 	double to = builder->strip.samples[i].upper;
-	line_sample a = surface_line_at(&lines->lines[k], from);
-	line_sample b = surface_line_at(&lines->lines[k + 1], to);
-	double step = lines->across_m[k + 1] - lines->across_m[k];
+	line_sample a = surface_line_at(&lines->lines[below], from);
+	line_sample b = surface_line_at(&lines->lines[above], to);
+	double step = lines->across_m[above] - lines->across_m[below];
 	double slope_a, slope_b, value_slope_a, value_slope_b;
-	surface_slope_across(lines, k, from, &slope_a, &value_slope_a);
-	surface_slope_across(lines, k + 1, to, &slope_b, &value_slope_b);
+	surface_slope_across(lines, below, from, &slope_a, &value_slope_a);
+	surface_slope_across(lines, above, to, &slope_b, &value_slope_b);
 	double bend = builder->strip.samples[i].bend;
 	double straight = b.y_m - a.y_m;
 	double ends[2] = { straight + bend * (step * slope_a - straight),
@@ -212,7 +226,8 @@ static void spin_rung(const mesh_builder *builder, size_t k, size_t i, picture_v
 			(1.0 - t) * a.slope + t * b.slope,
 			picture_hermite_slope(a.y_m, b.y_m, ends[0], ends[1], t) / step,
 		};
-		double across = m == builder->cuts ? lines->across_m[k + 1] : lines->across_m[k] + t * step;
+		double across = m == builder->cuts ? lines->across_m[above]
+		                                   : lines->across_m[below] + t * step;
 		set_vertex(lines, from + t * (to - from), across, y, slopes, &rung[m]);
 		rung[m].value = (float)picture_hermite(a.value, b.value, step * value_slope_a,
 		                                       step * value_slope_b, t);
@@ -242,7 +257,7 @@ static void spin_triangles(const mesh_builder *builder, size_t first, size_t sec
 	}
 }
 
-static bool spin_strip(mesh_builder *builder, size_t k)
+static bool spin_strip(mesh_builder *builder)
 {
 	picture_mesh *mesh = builder->mesh;
 	batten_context *context = mesh->context;
@@ -267,7 +282,7 @@ static bool spin_strip(mesh_builder *builder, size_t k)
 	if (!good)
 		return false;
 	for (size_t i = 0; i < samples; i++) {
-		spin_rung(builder, k, i, mesh->vertices + mesh->vertex_count);
+		spin_rung(builder, i, mesh->vertices + mesh->vertex_count);
 		mesh->vertex_count += rung;
 		if (i == 0)
 			continue;
@@ -278,15 +293,15 @@ static bool spin_strip(mesh_builder *builder, size_t k)
 	return true;
 }
 
-static bool spin_between(mesh_builder *builder, size_t k)
+static bool spin_between(mesh_builder *builder)
 {
-	const surface_line *lower = &builder->lines->lines[k];
-	const surface_line *upper = &builder->lines->lines[k + 1];
+	const surface_line *lower = &builder->lines->lines[builder->below];
+	const surface_line *upper = &builder->lines->lines[builder->above];
 	run a, b;
 	size_t i = 0;
 	size_t j = 0;
 	while (next_run(lower, i, &a) && next_run(upper, j, &b)) {
-		if (!plan_strip(builder, lower, a, upper, b) || !spin_strip(builder, k))
+		if (!plan_strip(builder, lower, a, upper, b) || !spin_strip(builder))
 			return false;
 		if (lower->along_m[a.last] <= upper->along_m[b.last])
 			i = a.last + 1;
@@ -310,21 +325,30 @@ static void take_box(picture_mesh *mesh)
 		}
 }
 
-/* Enough pieces for smooth outlines on small tables; about half a million vertices on large ones.
- * */
-static size_t choose_cuts(const batten_hull *hull)
+/* Enough pieces for smooth outlines on small tables, about half a million vertices on middling
+ * ones, at most about a thousand lines and points of each on large ones. */
+static void choose_fineness(mesh_builder *builder, const batten_hull *hull)
 {
 	double intervals = (double)hull->station_count * (double)hull->waterline_count;
-	double cuts = sqrt(5e5 / intervals);
-	return cuts > 10.0 ? 10 : cuts < 1.0 ? 1 : (size_t)cuts;
+	double cuts = fmin(fmax(sqrt(5e5 / intervals), 1.0), 10.0);
+	builder->cuts = (size_t)cuts;
+	bool waterlines = builder->lines->waterlines;
+	size_t points = waterlines ? hull->station_count : hull->waterline_count;
+	builder->line_stride = 1 + builder->lines->count / 1025;
+	builder->point_stride = 1 + points / 1025;
 }
 
 static batten_status spin(mesh_builder *builder)
 {
 	picture_mesh *mesh = builder->mesh;
-	for (size_t k = 0; k + 1 < builder->lines->count; k++)
-		if (!spin_between(builder, k))
+	size_t last = builder->lines->count - 1;
+	for (builder->below = 0; builder->below < last; builder->below = builder->above) {
+		size_t left = last - builder->below;
+		builder->above = builder->below +
+		                 (left < builder->line_stride ? left : builder->line_stride);
+		if (!spin_between(builder))
 			return BATTEN_MEMORY;
+	}
 	if (mesh->index_count == 0)
 		return batten_fail(mesh->context, BATTEN_INPUT,
 		                   "%s: nothing to draw: no two neighbouring lines have hull at one place",
@@ -340,7 +364,8 @@ batten_status picture_mesh_create(batten_context *context, const batten_hull *hu
 	batten_status status = surface_lines_create(context, hull, field, &lines);
 	if (status != BATTEN_OK)
 		return status;
-	mesh_builder builder = { .lines = lines, .cuts = choose_cuts(hull) };
+	mesh_builder builder = { .lines = lines };
+	choose_fineness(&builder, hull);
 	builder.mesh = batten_allocate(context, 1, sizeof *builder.mesh);
 	if (builder.mesh) {
 		builder.mesh->context = context;

@@ -140,8 +140,8 @@ static VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits kind, VkShade
 	};
 }
 
-/* Everything but shaders and vertices: triangles, both faces, nearest wins, viewport at draw time.
- * */
+/* Everything but shaders and vertices: triangles, both faces, nearest wins, viewport at draw
+ * time. */
 static VkResult build(const vulkan_device *vulkan, picture_pipeline *pipeline,
                       const VkPipelineShaderStageCreateInfo *stages,
                       const VkPipelineVertexInputStateCreateInfo *vertices)

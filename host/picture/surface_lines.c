@@ -23,9 +23,9 @@ void picture_keep_positive(double from, double to, double *from_slope, double *t
 	*to_slope = fmin(*to_slope, 3.0 * to);
 }
 
-/* Slope at the middle point of the parabola through three, from its two chords; at most three times
- * the flatter one, so that the cubics beside it do not swing past their ends (Fritsch and Carlson).
- * */
+/* Slope at the middle point of the parabola through three, from its two chords; at most three
+ * times the flatter one, so that the cubics beside it do not swing past their ends (Fritsch and
+ * Carlson). */
 static double parabola_slope(double step_before, double step_after, double before, double after)
 {
 	double slope = (step_after * before + step_before * after) / (step_before + step_after);

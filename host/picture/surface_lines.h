@@ -11,8 +11,8 @@ typedef struct picture_field {
 	const uint8_t *known; /* not 0: known */
 } picture_field;
 
-/* One waterline (or section). All arrays have count entries; slopes are derivatives along the line.
- * */
+/* One waterline (or section). All arrays have count entries; slopes are derivatives along the
+ * line. */
 typedef struct surface_line {
 	size_t count;
 	double *along_m, *y_m, *slope;

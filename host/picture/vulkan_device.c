@@ -100,9 +100,14 @@ count_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessa
 	vulkan_device *vulkan = user;
 	if (type == VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT)
 		return VK_FALSE; /* the loader's talk about drivers it skipped */
-	if (vulkan->validation_messages++ == 0)
-		(void)snprintf(vulkan->first_message, sizeof vulkan->first_message, "%s",
+	if (vulkan->validation_messages++ == 0) {
+		char *line = vulkan->first_message;
+		(void)snprintf(line, sizeof vulkan->first_message, "%s",
 		               data->pMessage ? data->pMessage : "");
+		for (; *line; line++)
+			if (*line == '\n')
+				*line = ' ';
+	}
 	return VK_FALSE;
 }
 

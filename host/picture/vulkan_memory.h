@@ -17,8 +17,8 @@ typedef struct vulkan_image {
 	VkImageView view;
 } vulkan_image;
 
-/* A buffer the host sees; size 0 is taken as 1. to_read: the host reads it. Errors: DEVICE, MEMORY.
- * */
+/* A buffer the host sees; size 0 is taken as 1. to_read: the host reads it. Errors: DEVICE,
+ * MEMORY. */
 batten_status vulkan_buffer_create(const vulkan_device *vulkan, VkDeviceSize size,
                                    VkBufferUsageFlags usage, bool to_read, vulkan_buffer *out);
 void vulkan_buffer_destroy(const vulkan_device *vulkan, vulkan_buffer *buffer);

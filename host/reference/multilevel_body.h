@@ -41,9 +41,9 @@ static size_t node_of(const search_state *s, int station, int waterline)
 
 static node_stencil stencil_of(const search_state *s, int station, int waterline)
 {
-	node_stencil stencil;
-	memcpy(stencil.x, s->along_x + station * STENCIL_SIZE, sizeof stencil.x);
-	memcpy(stencil.z, s->along_z + waterline * STENCIL_SIZE, sizeof stencil.z);
+	const scalar *x = s->along_x + station * STENCIL_SIZE;
+	const scalar *z = s->along_z + waterline * STENCIL_SIZE;
+	const node_stencil stencil = { { x[0], x[1], x[2], x[3] }, { z[0], z[1], z[2], z[3] } };
 	return stencil;
 }
 

@@ -107,7 +107,7 @@ static void check_gradients(noisy_hull *hull)
 {
 	oracle_problem problem = fairing_of(hull, 400, 0);
 	long double numeric[NODES], by_hand[NODES];
-	double y[NODES];
+	double y[NODES] = { 0 };
 	size_t count = hull->nx * hull->nz;
 	for (size_t k = 0; k < count; k++)
 		y[k] = hull->y[k] + 0.003 * next_number(&hull->seed);
@@ -138,7 +138,7 @@ static void test_gradient_against_the_objective(void **state)
 	oracle_problem problem = fairing_of(&hull, 400, 0);
 	size_t count = hull.nx * hull.nz;
 	long double gradient[NODES], column[4], expected = 0;
-	double y[NODES], moved[NODES], direction[NODES];
+	double y[NODES] = { 0 }, moved[NODES], direction[NODES];
 	for (size_t k = 0; k < count; k++) {
 		y[k] = ldexp(rint(ldexp(hull.y[k], 20)), -20);
 		direction[k] = floor(3 * next_number(&hull.seed)) - 1;

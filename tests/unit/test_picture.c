@@ -1,226 +1,8 @@
-/* Pictures: what is in the files, and what happens without a driver, a path or memory. */
-#include "hull/hull.h"
+/* Curvature maps: what is in the files, and what happens without a driver, a path or memory. */
 #include "picture/curvature_chart.h"
 #include "picture/paper.h"
 
-#include <dirent.h>
-#include <fcntl.h>
-#include <math.h>
-#include <png.h>
-#include <setjmp.h>
-#include <spawn.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cmocka.h>
-
-extern char **environ;
-
-/* ------------------------------------------------------------------------------------------------
- * Tools
- * --------------------------------------------------------------------------------------------- */
-
-/* An allocator that fails one request and counts what is not released. */
-typedef struct counter {
-	size_t made, fail_at, alive;
-} counter;
-
-typedef struct fixture {
-	counter count;
-	batten_context *context;
-	char folder[64];
-} fixture;
-
-static void *count_allocate(size_t size, void *user)
-{
-	counter *count = user;
-	if (count->made++ == count->fail_at)
-		return NULL;
-	count->alive++;
-	return malloc(size);
-}
-
-static void count_release(void *memory, void *user)
-{
-	counter *count = user;
-	count->alive--;
-	free(memory);
-}
-
-static int set_up(void **state)
-{
-	fixture *f = calloc(1, sizeof *f);
-	assert_non_null(f);
-	f->count.fail_at = SIZE_MAX;
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = count_allocate;
-	options.release = count_release;
-	options.allocate_user = &f->count;
-	assert_int_equal(batten_context_create(&options, &f->context), BATTEN_OK);
-	(void)snprintf(f->folder, sizeof f->folder, "/tmp/batten-picture-XXXXXX");
-	assert_non_null(mkdtemp(f->folder));
-	*state = f;
-	return 0;
-}
-
-static void path_in(const fixture *f, const char *name, char path[160])
-{
-	(void)snprintf(path, 160, "%s/%s", f->folder, name);
-}
-
-/* Removes all files of the folder; returns how many there were. */
-static size_t empty_folder(const fixture *f)
-{
-	DIR *folder = opendir(f->folder);
-	assert_non_null(folder);
-	size_t count = 0;
-	for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-		if (entry->d_name[0] == '.')
-			continue;
-		char path[400];
-		(void)snprintf(path, sizeof path, "%s/%s", f->folder, entry->d_name);
-		assert_int_equal(unlink(path), 0);
-		count++;
-	}
-	(void)closedir(folder);
-	return count;
-}
-
-static int tear_down(void **state)
-{
-	fixture *f = *state;
-	(void)empty_folder(f);
-	assert_int_equal(rmdir(f->folder), 0);
-	batten_context_destroy(f->context);
-	assert_int_equal(f->count.alive, 0);
-	free(f);
-	return 0;
-}
-
-static batten_hull *read_shipped(fixture *f, const char *name)
-{
-	char path[512];
-	(void)snprintf(path, sizeof path, "%s/hulls/%s.csv", BATTEN_DATA_DIR, name);
-	batten_hull *hull = NULL;
-	if (batten_hull_read(f->context, path, &hull) != BATTEN_OK)
-		fail_msg("%s", batten_context_error(f->context));
-	return hull;
-}
-
-enum { STATIONS = 9, WATERLINES = 10, NODES = STATIONS * WATERLINES };
-
-/* A wall of half-breadth 1 over x 0..8, z 0..0.9, bent by bend: y_zz = -bend everywhere. */
-static batten_hull *make_wall(fixture *f, double bend)
-{
-	double x[STATIONS], z[WATERLINES], y[NODES];
-	for (size_t i = 0; i < STATIONS; i++)
-		x[i] = (double)i;
-	for (size_t j = 0; j < WATERLINES; j++)
-		z[j] = 0.1 * (double)j;
-	for (size_t node = 0; node < NODES; node++) {
-		double off = z[node / STATIONS] - 0.45;
-		y[node] = 1.0 - 0.5 * bend * off * off;
-	}
-	batten_hull_table table = { .name = "wall",
-		                        .lbp_m = 8,
-		                        .draft_m = 0.5,
-		                        .station_count = STATIONS,
-		                        .waterline_count = WATERLINES,
-		                        .x_m = x,
-		                        .z_m = z,
-		                        .y_m = y };
-	batten_hull *hull = NULL;
-	assert_int_equal(batten_hull_create(f->context, &table, &hull), BATTEN_OK);
-	return hull;
-}
-
-static char *read_file(const char *path, size_t *length)
-{
-	FILE *stream = fopen(path, "rb");
-	assert_non_null(stream);
-	assert_int_equal(fseek(stream, 0, SEEK_END), 0);
-	long size = ftell(stream);
-	assert_true(size > 0);
-	rewind(stream);
-	char *bytes = malloc((size_t)size + 1);
-	assert_non_null(bytes);
-	assert_int_equal(fread(bytes, 1, (size_t)size, stream), (size_t)size);
-	bytes[size] = '\0';
-	*length = (size_t)size;
-	(void)fclose(stream);
-	return bytes;
-}
-
-static void assert_same_file(const char *a, const char *b)
-{
-	size_t length_a = 0;
-	size_t length_b = 0;
-	char *bytes_a = read_file(a, &length_a);
-	char *bytes_b = read_file(b, &length_b);
-	assert_int_equal(length_a, length_b);
-	assert_memory_equal(bytes_a, bytes_b, length_a);
-	free(bytes_a);
-	free(bytes_b);
-}
-
-typedef struct picture {
-	unsigned width, height;
-	uint8_t *rgb;
-} picture;
-
-static picture decode(const char *path)
-{
-	png_image image = { .version = PNG_IMAGE_VERSION };
-	if (!png_image_begin_read_from_file(&image, path))
-		fail_msg("%s: %s", path, image.message);
-	image.format = PNG_FORMAT_RGB;
-	picture result = { image.width, image.height, malloc(PNG_IMAGE_SIZE(image)) };
-	assert_non_null(result.rgb);
-	if (!png_image_finish_read(&image, NULL, result.rgb, 0, NULL))
-		fail_msg("%s: %s", path, image.message);
-	return result;
-}
-
-static picture draw(fixture *f, const batten_hull *hull, const batten_picture_options *options)
-{
-	char path[160];
-	path_in(f, "drawn.png", path);
-	if (batten_picture_curvature(f->context, hull, options, path, NULL) != BATTEN_OK)
-		fail_msg("%s", batten_context_error(f->context));
-	return decode(path);
-}
-
-static batten_picture_options options_of(unsigned width, unsigned height, double scale)
-{
-	batten_picture_options options;
-	batten_picture_options_default(&options);
-	options.width = width;
-	options.height = height;
-	options.scale_per_m = scale;
-	return options;
-}
-
-/* Part of the pixels of a rectangle that are not white. */
-static double covered(const picture *p, const picture_rectangle *r)
-{
-	size_t count = 0;
-	size_t inked = 0;
-	for (unsigned y = (unsigned)r->top; y < (unsigned)(r->top + r->height); y++)
-		for (unsigned x = (unsigned)r->left; x < (unsigned)(r->left + r->width); x++) {
-			const uint8_t *pixel = p->rgb + 3 * ((size_t)y * p->width + x);
-			inked += pixel[0] < 250 || pixel[1] < 250 || pixel[2] < 250;
-			count++;
-		}
-	return (double)inked / (double)count;
-}
+#include "unit/picture_fixture.h"
 
 /* ------------------------------------------------------------------------------------------------
  * Curvature maps
@@ -464,9 +246,7 @@ static void nothing_to_draw_is_said(void **state)
 	path_in(f, "none.png", path);
 	assert_int_equal(batten_picture_curvature(f->context, hull, NULL, path, NULL), BATTEN_INPUT);
 	assert_non_null(strstr(batten_context_error(f->context), "two lines"));
-	path_in(f, "lines.svg", path);
-	assert_int_equal(batten_picture_lines(f->context, NULL, hull, path), BATTEN_OK);
-	assert_int_equal(empty_folder(f), 1);
+	assert_int_equal(empty_folder(f), 0);
 	batten_hull_destroy(hull);
 }
 
@@ -543,105 +323,6 @@ static void ticks_are_round(void **state)
 }
 
 /* ------------------------------------------------------------------------------------------------
- * Lines plans
- * --------------------------------------------------------------------------------------------- */
-
-/* Exit code of a program that is found on the path, silent. */
-static int run(char *const arguments[])
-{
-	posix_spawn_file_actions_t actions;
-	assert_int_equal(posix_spawn_file_actions_init(&actions), 0);
-	(void)posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-	(void)posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-	pid_t child = 0;
-	int started = posix_spawnp(&child, arguments[0], &actions, NULL, arguments, environ);
-	(void)posix_spawn_file_actions_destroy(&actions);
-	assert_int_equal(started, 0);
-	int result = 0;
-	assert_int_equal(waitpid(child, &result, 0), child);
-	return WIFEXITED(result) ? WEXITSTATUS(result) : 255;
-}
-
-/* A clone with one given offset changed. */
-static batten_hull *moved(fixture *f, const batten_hull *hull, double x, double z, double y)
-{
-	batten_hull *clone = NULL;
-	assert_int_equal(batten_hull_clone(f->context, hull, &clone), BATTEN_OK);
-	size_t station = hull_station_at(hull, x);
-	size_t waterline = hull_waterline_at(hull, z);
-	assert_true(station != SIZE_MAX && waterline != SIZE_MAX);
-	clone->y_m[waterline * hull->station_count + station] = y;
-	return clone;
-}
-
-/* Well-formed, drawable, the same bytes each time, for every shipped hull. */
-static void lines_are_good_svg(void **state)
-{
-	fixture *f = *state;
-	const char *names[] = { "npl_parent", "bsra_trawler", "highspeed_craft", "wigley",
-		                    "wigley_noisy" };
-	char first[160], second[160], drawn[160];
-	path_in(f, "first.svg", first);
-	path_in(f, "second.svg", second);
-	path_in(f, "drawn.png", drawn);
-	char check[] = "xmllint", quiet[] = "--noout", offline[] = "--nonet";
-	char *const lint[] = { check, quiet, offline, first, NULL };
-	char render[] = "rsvg-convert", width[] = "-w", number[] = "400", to[] = "-o";
-	char *const convert[] = { render, width, number, first, to, drawn, NULL };
-	for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-		batten_hull *hull = read_shipped(f, names[k]);
-		for (int with_before = 0; with_before < 2; with_before++) {
-			const batten_hull *before = with_before ? hull : NULL;
-			assert_int_equal(batten_picture_lines(f->context, before, hull, first), BATTEN_OK);
-			assert_int_equal(batten_picture_lines(f->context, before, hull, second), BATTEN_OK);
-			assert_same_file(first, second);
-			assert_int_equal(run(lint), 0);
-		}
-		assert_int_equal(run(convert), 0);
-		picture p = decode(drawn);
-		picture_rectangle all = { 0, 0, p.width, p.height };
-		assert_true(covered(&p, &all) > 0.03);
-		free(p.rgb);
-		batten_hull_destroy(hull);
-	}
-}
-
-static size_t count_of(const char *path, const char *what)
-{
-	size_t length = 0;
-	char *text = read_file(path, &length);
-	size_t count = 0;
-	for (const char *at = text; (at = strstr(at, what)) != NULL; at++)
-		count++;
-	free(text);
-	return count;
-}
-
-/* The ring around a point that moved, in body plan, half-breadth plan and legend: the only red. */
-static void replaced_points_are_ringed(void **state)
-{
-	fixture *f = *state;
-	const char red[] = "rgb(80%,10%,10%)";
-	char path[160];
-	path_in(f, "lines.svg", path);
-	batten_hull *hull = read_shipped(f, "npl_parent");
-	batten_hull *little = moved(f, hull, 2.032, 0.15, 0.118);
-	batten_hull *much = moved(f, hull, 2.032, 0.15, 0.109);
-	assert_int_equal(batten_picture_lines(f->context, hull, little, path), BATTEN_OK);
-	assert_int_equal(count_of(path, red), 0);
-	assert_int_equal(batten_picture_lines(f->context, hull, much, path), BATTEN_OK);
-	assert_int_equal(count_of(path, red), 3);
-	/* Another table: nothing to compare with, yet drawn. */
-	batten_hull *wall = make_wall(f, 0.1);
-	assert_int_equal(batten_picture_lines(f->context, wall, much, path), BATTEN_OK);
-	assert_int_equal(count_of(path, red), 0);
-	batten_hull_destroy(wall);
-	batten_hull_destroy(hull);
-	batten_hull_destroy(little);
-	batten_hull_destroy(much);
-}
-
-/* ------------------------------------------------------------------------------------------------
  * Failures
  * --------------------------------------------------------------------------------------------- */
 
@@ -654,11 +335,8 @@ static void bad_paths_leave_nothing(void **state)
 	path_in(f, "absent/picture", path);
 	assert_int_equal(batten_picture_curvature(f->context, hull, &options, path, NULL), BATTEN_IO);
 	assert_non_null(strstr(batten_context_error(f->context), path));
-	assert_int_equal(batten_picture_lines(f->context, NULL, hull, path), BATTEN_IO);
-	assert_non_null(strstr(batten_context_error(f->context), path));
 	assert_int_equal(batten_picture_curvature(f->context, hull, &options, f->folder, NULL),
 	                 BATTEN_IO);
-	assert_int_equal(batten_picture_lines(f->context, NULL, hull, f->folder), BATTEN_IO);
 	assert_int_equal(empty_folder(f), 0);
 	batten_hull_destroy(hull);
 }
@@ -719,38 +397,10 @@ static void validation_is_silent(void **state)
 	batten_hull_destroy(hull);
 }
 
-/* Makes allocation after allocation fail until a call succeeds; nothing leaks, no file is left. */
-static void fail_every_allocation(fixture *f, const batten_hull *hull, const char *path,
-                                  batten_status (*call)(fixture *, const batten_hull *,
-                                                        const char *),
-                                  size_t least)
-{
-	size_t before = f->count.alive;
-	for (size_t k = 0;; k++) {
-		f->count.made = 0;
-		f->count.fail_at = k;
-		batten_status status = call(f, hull, path);
-		f->count.fail_at = SIZE_MAX;
-		assert_int_equal(f->count.alive, before);
-		if (status == BATTEN_OK) {
-			assert_true(k >= least);
-			assert_int_equal(empty_folder(f), 1);
-			return;
-		}
-		assert_int_equal(status, BATTEN_MEMORY);
-		assert_int_equal(empty_folder(f), 0);
-	}
-}
-
 static batten_status call_curvature(fixture *f, const batten_hull *hull, const char *path)
 {
 	batten_picture_options options = options_of(64, 64, 0);
 	return batten_picture_curvature(f->context, hull, &options, path, NULL);
-}
-
-static batten_status call_lines(fixture *f, const batten_hull *hull, const char *path)
-{
-	return batten_picture_lines(f->context, hull, hull, path);
 }
 
 static void every_allocation_may_fail(void **state)
@@ -763,13 +413,11 @@ static void every_allocation_may_fail(void **state)
 	char path[160];
 	path_in(f, "picture", path);
 	fail_every_allocation(f, hull, path, call_curvature, 20);
-	fail_every_allocation(f, hull, path, call_lines, 20);
 	batten_hull_destroy(hull);
 }
 
 int main(void)
 {
-#define PICTURE_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 	const struct CMUnitTest tests[] = {
 		PICTURE_TEST(hulls_are_in_the_picture),
 		PICTURE_TEST(colours_follow_the_scale),
@@ -783,8 +431,6 @@ int main(void)
 		PICTURE_TEST(colours_are_even),
 		PICTURE_TEST(text_is_cleaned),
 		PICTURE_TEST(ticks_are_round),
-		PICTURE_TEST(lines_are_good_svg),
-		PICTURE_TEST(replaced_points_are_ringed),
 		PICTURE_TEST(bad_paths_leave_nothing),
 		PICTURE_TEST(no_driver_is_said),
 		PICTURE_TEST(validation_is_silent),
