@@ -59,29 +59,28 @@ glslang-tools
 
 run_packages="
 ocl-icd-libopencl1|nvidia-libopencl1
-pocl-opencl-icd
+pocl-opencl-icd binutils
 libvulkan1
 mesa-vulkan-drivers
 fonts-dejavu-core
 "
 # The loaders of OpenCL and Vulkan, and a driver of each that needs no graphics card: PoCL, lavapipe.
+# binutils: PoCL links kernels by ld.
 # The font of titles and scales.
 
 test_packages="
 libcmocka-dev
-liblbfgs-dev libnlopt-dev
+libnlopt-dev
 librandom123-dev
-binutils
 clang libclang-rt-dev|libclang-rt-14-dev
 clang-format clang-tidy
-oclgrind
 vulkan-validationlayers
 libxml2-utils librsvg2-bin
 "
-# cmocka: unit tests. lbfgs nlopt: the optimum that a search is compared with. random123: the noise of
-# a shipped hull, made again. binutils: nm. clang: the second compiler, the kernels' syntax, and with
-# libclang-rt AddressSanitizer. clang-format clang-tidy: layout and lint. oclgrind: races and bounds
-# in kernels. vulkan-validationlayers: misuse of Vulkan. xmllint and rsvg-convert: SVG files.
+# cmocka: unit tests. nlopt: the optimum that a search is compared with. random123: the noise of a
+# shipped hull, made again. clang: the second compiler, the kernels' syntax, and with libclang-rt
+# AddressSanitizer. clang-format clang-tidy: layout and lint. vulkan-validationlayers: misuse of Vulkan.
+# xmllint and rsvg-convert: SVG files.
 
 is_installed()
 {

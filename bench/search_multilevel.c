@@ -75,8 +75,8 @@ static batten_status timed(const bench_settings *settings, const workload *w, in
 	options.precision = precision;
 	const batten_grid grid = { STATIONS, WATERLINES, w->x, w->z };
 	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
-	const batten_status status = batten_search_batch(settings->context, &grid, w->count, w->problems,
-	                                                 &options, y, results, run);
+	const batten_status status = batten_search_batch(settings->context, &grid, w->count,
+	                                                 w->problems, &options, y, results, run);
 	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
 	return status;
 }
@@ -104,11 +104,11 @@ static batten_status run_case(const bench_settings *settings, double raw_w2,
 	const bool wall = !is_cpu(settings);
 	double seconds = 0.0;
 	/* Warm-up, and the proof that both do the same. */
-	batten_status status = timed(settings, &w, settings->device, precision, w.y, w.results, &run, wall,
-	                             &seconds);
+	batten_status status = timed(settings, &w, settings->device, precision, w.y, w.results, &run,
+	                             wall, &seconds);
 	if (status == BATTEN_OK)
-		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL, wall,
-		               &seconds);
+		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
+		               wall, &seconds);
 	if (status == BATTEN_OK && run.strict &&
 	    memcmp(w.y, w.known_y, w.count * NODES * sizeof *w.y) != 0)
 		status = BATTEN_INTERNAL;
@@ -119,8 +119,8 @@ static batten_status run_case(const bench_settings *settings, double raw_w2,
 		status = timed(settings, &w, settings->device, precision, w.y, w.results, NULL, wall,
 		               &pairs.value[p]);
 		if (status == BATTEN_OK)
-			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
-			               wall, &pairs.reference[p]);
+			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known,
+			               NULL, wall, &pairs.reference[p]);
 	}
 	if (status == BATTEN_OK) {
 		bench_pairs_judge(&pairs, 1e6 / (double)w.count, &row);
@@ -138,8 +138,8 @@ batten_status bench_search_multilevel(const bench_settings *settings)
 	const size_t count = settings->full ? 5 : 1;
 	for (int precision = 0; precision < 2; precision++)
 		for (size_t w = 0; w < count; w++) {
-			const batten_status status =
-				run_case(settings, weights[w], precision ? BATTEN_F32 : BATTEN_F64);
+			const batten_status status = run_case(settings, weights[w],
+			                                      precision ? BATTEN_F32 : BATTEN_F64);
 			if (status != BATTEN_OK)
 				return status;
 		}

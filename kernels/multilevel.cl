@@ -131,11 +131,12 @@ static inline real whole_objective(const search_state *s)
 static inline void apply_move(const search_state *s, const hat_move *move)
 {
 	ROLLED
-	for (int k = move->waterline - move->width_z + 1; k < move->waterline + move->width_z; k++)
+	for (int k = move->waterline - move->width_z + 1; k < move->waterline + move->width_z; k++) {
 		ROLLED
 		for (int i = move->station - move->width_x + 1; i < move->station + move->width_x; i++)
 			if (k >= 0 && k < s->waterlines && i >= 0 && i < s->stations)
 				s->y[node_of(s, i, k)] = moved_node(s, move, i, k);
+	}
 }
 
 /* Exploratory move along one direction: +h, -h and the bottom of the parabola through them; the best
@@ -196,8 +197,8 @@ static inline real sweep(const search_state *s, int level_count, global const in
 		ROLLED
 		for (int colour = 0; colour < SEARCH_COLOUR_COUNT; colour++) {
 			ROLLED
-			for (int d = level[SEARCH_LEVEL_FIRST + colour] + (int)get_local_id(0); d < level[SEARCH_LEVEL_FIRST + colour + 1];
-			     d += (int)get_local_size(0)) {
+			for (int d = level[SEARCH_LEVEL_FIRST + colour] + (int)get_local_id(0);
+			     d < level[SEARCH_LEVEL_FIRST + colour + 1]; d += (int)get_local_size(0)) {
 				move.station = centres[2 * d];
 				move.waterline = centres[2 * d + 1];
 				const real length = explore(s, &move, h, extra);
@@ -283,7 +284,7 @@ static inline void evaluate_and_extrapolate(const search_state *s, mask going, i
 	if (ANY(best > zero)) {
 		extrapolate(s, best);
 		ROLLED
-	for (int n = (int)get_local_id(0); n < s->nodes; n += (int)get_local_size(0))
+		for (int n = (int)get_local_id(0); n < s->nodes; n += (int)get_local_size(0))
 			s->y[n] = CHOOSE(best > zero, s->trial[n], s->y[n]);
 		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 	}
@@ -325,7 +326,9 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	const real one = SPREAD(LITERAL(1.0));
 	const real limit = SPREAD((scalar)iteration_limit);
 	const real last_step = settings[group * SEARCH_SETTING_COUNT + SEARCH_SETTING_LAST_STEP];
-	progress p = { zero, settings[group * SEARCH_SETTING_COUNT + SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero };
+	progress p = { zero, settings[group * SEARCH_SETTING_COUNT + SEARCH_SETTING_FIRST_STEP],
+		           zero, zero,
+		           zero, zero };
 	real start = zero;
 	ROLLED
 	for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
@@ -338,7 +341,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 		if (turn > 0 && !ANY(active))
 			break;
 		ROLLED
-	for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
+		for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
 			s.base[n] = s.y[n];
 		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 		real longest = zero;

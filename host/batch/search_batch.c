@@ -136,8 +136,9 @@ static void add_strict_devices(batch *b, worker *workers, size_t *count, batten_
 		} else if (!trial.strict) {
 			--*count;
 			char line[200];
-			(void)snprintf(line, sizeof line, "device %zu (%.100s) differs from the C path: not used",
-			               i, trial.device);
+			(void)snprintf(line, sizeof line,
+			               "device %zu (%.100s) differs from the C path: not used", i,
+			               trial.device);
 			add_warning(run, line);
 		} else {
 			add_device(run, trial.device);
@@ -164,9 +165,6 @@ static batten_status choose_workers(batch *b, worker *workers, size_t *count,
 	const int device = b->plan->options.device;
 	if (device >= 0)
 		return add_engine(b, (size_t)device, workers, count, run);
-	if (device != BATTEN_DEVICE_AUTO && device != BATTEN_DEVICE_REFERENCE)
-		return batten_fail(b->context, BATTEN_USAGE, "device %d: auto, reference or an index is expected",
-		                   device);
 	if (device == BATTEN_DEVICE_AUTO)
 		add_strict_devices(b, workers, count, run);
 	if (*count == 0)
@@ -233,8 +231,8 @@ static size_t order_problems(const batch *b, size_t count, size_t *order)
 /* Two probes a direction and iteration, and what the searches counted beyond. */
 static batten_status count_probes(const batch *b, size_t count)
 {
-	uint8_t *scratch =
-		batten_allocate(b->context, b->plan->station_count, b->plan->waterline_count);
+	uint8_t *scratch = batten_allocate(b->context, b->plan->station_count,
+	                                   b->plan->waterline_count);
 	if (!scratch)
 		return BATTEN_MEMORY;
 	for (size_t p = 0; p < count; p++)

@@ -17,7 +17,8 @@ typedef struct search_shape {
 typedef struct search_engine search_engine;
 
 /* The shape that suits a device and a plan; the plan's lanes and work_group where they are set. */
-search_shape search_shape_choose(const search_plan *plan, size_t index, const batten_device *device);
+search_shape search_shape_choose(const search_plan *plan, size_t index,
+                                 const batten_device *device);
 
 /* Builds the kernel and runs its self-test, or finds the engine this context already has. On failure
  * result (may be NULL) still tells what happened. Errors: DEVICE, KERNEL, MEMORY. */

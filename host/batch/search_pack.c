@@ -127,7 +127,7 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 		values[v] = get(plan, outcome, v * lanes + lane);
 	const double last_step = plan->options.last_step * problem->half_beam_m;
 	const double compared = plan->options.precision == BATTEN_F64 ? last_step
-	                                                               : (double)(float)last_step;
+	                                                              : (double)(float)last_step;
 	result->end = end_of(values[SEARCH_OUTCOME_MOVES], values[SEARCH_OUTCOME_STEP], compared);
 	result->iterations = (unsigned)values[SEARCH_OUTCOME_ITERATIONS];
 	result->probes = ((uint64_t)values[SEARCH_OUTCOME_EXTRA_HIGH] << 20) +

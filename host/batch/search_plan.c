@@ -9,6 +9,8 @@
 #include "shared/dialect.h"
 #include "shared/grid_energy.h"
 
+/* Larger ones would make the objective overflow. */
+#define WEIGHT_LIMIT 1e100
 enum { COORDINATE_LIMIT = 4096, F32_NODE_LIMIT = 1 << 22 };
 
 /* Half the sum of the spacings to both neighbours; half a spacing at the ends. */
@@ -74,7 +76,8 @@ static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
 	for (int l = 0; l < SEARCH_LEVEL_LIMIT; l++) {
 		const double width = ldexp(finest, l);
 		const search_level level = { .width_x = hat_width(width / spacing_x, plan->station_count),
-			                         .width_z = hat_width(width / spacing_z, plan->waterline_count) };
+			                         .width_z = hat_width(width / spacing_z,
+			                                              plan->waterline_count) };
 		const search_level *before = l > 0 ? &plan->levels[l - 1] : NULL;
 		if (before && level.width_x == before->width_x && level.width_z == before->width_z)
 			break;
@@ -173,11 +176,12 @@ static batten_status check_grid(batten_context *context, const batten_grid *grid
 		                   grid->station_count, grid->waterline_count, COORDINATE_LIMIT);
 	for (size_t i = 0; i < grid->station_count; i++)
 		if (!isfinite(grid->x_m[i]) || (i > 0 && !(grid->x_m[i] > grid->x_m[i - 1])))
-			return batten_fail(context, BATTEN_USAGE, "station %zu: x must be finite and ascending", i);
+			return batten_fail(context, BATTEN_USAGE, "station %zu: x must be finite and ascending",
+			                   i);
 	for (size_t k = 0; k < grid->waterline_count; k++)
 		if (!isfinite(grid->z_m[k]) || (k > 0 && !(grid->z_m[k] > grid->z_m[k - 1])))
-			return batten_fail(context, BATTEN_USAGE, "waterline %zu: z must be finite and ascending",
-			                   k);
+			return batten_fail(context, BATTEN_USAGE,
+			                   "waterline %zu: z must be finite and ascending", k);
 	return BATTEN_OK;
 }
 
@@ -205,11 +209,15 @@ static batten_status check_options(batten_context *context, const batten_search_
 	if (chosen->iteration_limit == 0 || chosen->iteration_limit > 1000000)
 		return batten_fail(context, BATTEN_USAGE, "iteration limit %u: 1 to 1000000 is expected",
 		                   chosen->iteration_limit);
-	if (!is_lane_count(chosen->lanes) || chosen->work_group > 1024)
+	if (chosen->device < BATTEN_DEVICE_REFERENCE)
 		return batten_fail(context, BATTEN_USAGE,
-		                   "%u lanes in a work-group of %u: 1, 2, 4, 8 or 16 lanes and at most 1024 "
-		                   "work-items are expected",
-		                   chosen->lanes, chosen->work_group);
+		                   "device %d: auto, reference or an index is expected", chosen->device);
+	if (!is_lane_count(chosen->lanes) || chosen->work_group > 1024)
+		return batten_fail(
+			context, BATTEN_USAGE,
+			"%u lanes in a work-group of %u: 1, 2, 4, 8 or 16 lanes and at most 1024 "
+			"work-items are expected",
+			chosen->lanes, chosen->work_group);
 	return BATTEN_OK;
 }
 
@@ -220,7 +228,8 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 	plan->waterline_count = grid->waterline_count;
 	plan->node_count = (grid->station_count + 2) * (grid->waterline_count + 2);
 	plan->stencil_x = batten_allocate(context, grid->station_count, STENCIL_SIZE * sizeof(double));
-	plan->stencil_z = batten_allocate(context, grid->waterline_count, STENCIL_SIZE * sizeof(double));
+	plan->stencil_z = batten_allocate(context, grid->waterline_count,
+	                                  STENCIL_SIZE * sizeof(double));
 	plan->cell_x = batten_allocate(context, grid->station_count, sizeof(double));
 	plan->cell_z = batten_allocate(context, grid->waterline_count, sizeof(double));
 	if (!plan->stencil_x || !plan->stencil_z || !plan->cell_x || !plan->cell_z)
@@ -281,9 +290,9 @@ void search_plan_destroy(search_plan *plan)
 
 const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem)
 {
-	if (!isfinite(problem->w1) || !isfinite(problem->w2) || problem->w1 < 0.0 || problem->w2 < 0.0 ||
-	    problem->w1 + problem->w2 == 0.0)
-		return "the weights must be finite, not negative and not both 0";
+	if (!(problem->w1 >= 0.0) || !(problem->w2 >= 0.0) || problem->w1 + problem->w2 == 0.0 ||
+	    problem->w1 > WEIGHT_LIMIT || problem->w2 > WEIGHT_LIMIT)
+		return "the weights must be from 0 to 1e100 and not both 0";
 	if (!isfinite(problem->half_beam_m) || problem->half_beam_m <= 0.0)
 		return "the half-beam must be positive";
 	const size_t nodes = plan->station_count * plan->waterline_count;

@@ -15,11 +15,13 @@ typedef struct search_level {
 	int32_t width_x, width_z;
 	int32_t first[SEARCH_COLOUR_COUNT + 1];
 } search_level;
-_Static_assert(sizeof(search_level) == SEARCH_LEVEL_SIZE * sizeof(int32_t), "as the kernel reads it");
+_Static_assert(sizeof(search_level) == SEARCH_LEVEL_SIZE * sizeof(int32_t),
+               "as the kernel reads it");
 
 typedef struct search_plan {
 	batten_context *context;
-	size_t station_count, waterline_count, node_count; /* node_count with a ring of one node around */
+	size_t station_count, waterline_count,
+		node_count;                /* node_count with a ring of one node around */
 	double *stencil_x, *stencil_z; /* STENCIL_SIZE a station, a waterline */
 	double *cell_x, *cell_z;       /* half-sum spacings */
 	int level_count;

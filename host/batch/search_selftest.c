@@ -76,9 +76,10 @@ static void judge(batten_selftest *result, double worst)
 	else
 		result->result = BATTEN_SELFTEST_FAILED;
 	if (result->different > 0)
-		(void)snprintf(result->message, sizeof result->message,
-		               "%zu of %zu numbers differ from the C path, the objective by up to %.3g of it",
-		               result->different, result->compared, worst);
+		(void)snprintf(
+			result->message, sizeof result->message,
+			"%zu of %zu numbers differ from the C path, the objective by up to %.3g of it",
+			result->different, result->compared, worst);
 }
 
 static batten_status run_both(search_engine *engine, const search_plan *plan,

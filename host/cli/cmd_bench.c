@@ -11,9 +11,10 @@ static const cli_command command = {
 	.usage = "[NAME ...] [OPTION ...]",
 	.summary = "times the engine against a named reference, in one run",
 	.example = "  batten bench search.multilevel --json\n",
-	.notes = "Values and reference values are medians of interleaved pairs, in CPU time on CPUs and wall\n"
-	         "time on other devices; ratio: how many times faster than the reference, [95 % interval].\n"
-	         "The results are compared before anything is timed.\n",
+	.notes =
+		"Values and reference values are medians of interleaved pairs, in CPU time on CPUs and wall\n"
+		"time on other devices; ratio: how many times faster than the reference, [95 % interval].\n"
+		"The results are compared before anything is timed.\n",
 };
 
 typedef struct output {
@@ -26,18 +27,18 @@ static void emit(const bench_row *row, void *user)
 	output *out = user;
 	const char *precision = row->precision == BATTEN_F64 ? "f64" : "f32";
 	if (!out->as_json) {
-		(void)printf("%-18s %-24s %s  %10.4g %s, %s %10.4g: ratio %.3g [%.3g, %.3g]  %s\n", row->name,
-		             row->case_name, precision, row->value, row->unit, row->reference,
-		             row->reference_value, row->ratio, row->ratio_low, row->ratio_high, row->device);
+		(void)printf("%-18s %-24s %s  %10.4g %s, %s %10.4g: ratio %.3g [%.3g, %.3g]  %s\n",
+		             row->name, row->case_name, precision, row->value, row->unit, row->reference,
+		             row->reference_value, row->ratio, row->ratio_low, row->ratio_high,
+		             row->device);
 		(void)fflush(stdout);
 		return;
 	}
-	json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:n}", "name",
-	                           row->name, "case", row->case_name, "precision", precision, "device",
-	                           row->device, "value", row->value, "unit", row->unit, "reference",
-	                           row->reference, "reference_value", row->reference_value, "ratio",
-	                           row->ratio, "ratio_low", row->ratio_low, "ratio_high", row->ratio_high,
-	                           "percent_of_peak");
+	json_t *object = json_pack(
+		"{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:n}", "name", row->name, "case",
+		row->case_name, "precision", precision, "device", row->device, "value", row->value, "unit",
+		row->unit, "reference", row->reference, "reference_value", row->reference_value, "ratio",
+		row->ratio, "ratio_low", row->ratio_low, "ratio_high", row->ratio_high, "percent_of_peak");
 	(void)json_array_append_new(out->list, object);
 }
 
@@ -56,7 +57,8 @@ static batten_status check_names(const char *const *names, size_t count)
 		for (const bench_entry *entry = bench_entries; entry->name; entry++)
 			known = known || strcmp(entry->name, names[n]) == 0;
 		if (!known)
-			return cli_usage("bench", "found '%s', the name of a benchmark was expected, such as %s",
+			return cli_usage("bench",
+			                 "found '%s', the name of a benchmark was expected, such as %s",
 			                 names[n], bench_entries[0].name);
 	}
 	return BATTEN_OK;
@@ -87,8 +89,8 @@ batten_status cli_bench(int argc, char **argv)
 	const char *names[NAME_LIMIT];
 	size_t count = 0;
 	bool done = false;
-	batten_status status = cli_parse(&command, argc, argv, options, &common, names, NAME_LIMIT, &count,
-	                                 &done);
+	batten_status status = cli_parse(&command, argc, argv, options, &common, names, NAME_LIMIT,
+	                                 &count, &done);
 	if (status == BATTEN_OK && !done)
 		status = check_names(names, count);
 	if (status == BATTEN_OK && !done)

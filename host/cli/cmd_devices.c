@@ -18,17 +18,19 @@ static const cli_command selftest_command = {
 	.usage = "[--device INDEX] [OPTION ...]",
 	.summary = "runs every kernel on a small known problem against the plain C path, bit for bit",
 	.example = "  batten selftest\n",
-	.notes = "equal: the same bits as the C path; different: other last bits, used only when asked for by\n"
-	         "its index; failed: not used; absent: the device has no such precision.\n",
+	.notes =
+		"equal: the same bits as the C path; different: other last bits, used only when asked for by\n"
+		"its index; failed: not used; absent: the device has no such precision.\n",
 };
 
 static json_t *device_json(size_t index, const batten_device *device)
 {
 	return json_pack("{s:I, s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:I, s:I, s:I, s:I, s:I}", "index",
-	                 (json_int_t)index, "name", device->name, "platform", device->platform, "driver",
-	                 device->driver, "version", device->version, "type", device->is_cpu ? "cpu" : "gpu",
-	                 "f64", device->has_f64, "f32_correctly_rounded", device->has_correct_f32,
-	                 "compute_units", (json_int_t)device->compute_units, "global_memory_bytes",
+	                 (json_int_t)index, "name", device->name, "platform", device->platform,
+	                 "driver", device->driver, "version", device->version, "type",
+	                 device->is_cpu ? "cpu" : "gpu", "f64", device->has_f64,
+	                 "f32_correctly_rounded", device->has_correct_f32, "compute_units",
+	                 (json_int_t)device->compute_units, "global_memory_bytes",
 	                 (json_int_t)device->global_memory_bytes, "local_memory_bytes",
 	                 (json_int_t)device->local_memory_bytes, "max_allocation_bytes",
 	                 (json_int_t)device->max_allocation_bytes, "max_work_group",
@@ -42,7 +44,8 @@ static void print_device(size_t index, const batten_device *device)
 		             "name");
 	(void)printf("%-5zu %-4s %-5s %6u %5.1f GiB  %s (%s)\n", index, device->is_cpu ? "cpu" : "gpu",
 	             device->has_f64 ? "yes" : "no", device->compute_units,
-	             (double)device->global_memory_bytes / 1073741824.0, device->name, device->platform);
+	             (double)device->global_memory_bytes / 1073741824.0, device->name,
+	             device->platform);
 }
 
 static batten_status list_devices(batten_context *context, const cli_common *common)
@@ -72,7 +75,8 @@ static batten_status list_devices(batten_context *context, const cli_common *com
 	}
 	json_t *all = json_object();
 	(void)json_object_set_new(all, "devices", list);
-	(void)json_object_set_new(all, "reason", count == 0 && reason ? json_string(reason) : json_null());
+	(void)json_object_set_new(all, "reason",
+	                          count == 0 && reason ? json_string(reason) : json_null());
 	return cli_json_print("devices", all);
 }
 
@@ -105,15 +109,16 @@ static void report_test(size_t index, const batten_selftest *test, bool as_json,
 	const char *precision = test->precision == BATTEN_F64 ? "f64" : "f32";
 	if (as_json)
 		(void)json_array_append_new(
-			list, json_pack("{s:I, s:s, s:s, s:s, s:I, s:I, s:f, s:f, s:s}", "device",
-		                    (json_int_t)index, "kernel", test->kernel, "precision", precision, "result",
-		                    result_text(test->result), "compared", (json_int_t)test->compared,
-		                    "different", (json_int_t)test->different, "build_s", test->build_s, "run_s",
-		                    test->run_s, "message", test->message));
+			list,
+			json_pack("{s:I, s:s, s:s, s:s, s:I, s:I, s:f, s:f, s:s}", "device", (json_int_t)index,
+		              "kernel", test->kernel, "precision", precision, "result",
+		              result_text(test->result), "compared", (json_int_t)test->compared,
+		              "different", (json_int_t)test->different, "build_s", test->build_s, "run_s",
+		              test->run_s, "message", test->message));
 	else
-		(void)printf("device %zu  %-12s %s  %-9s  %zu of %zu numbers differ  %s\n", index, test->kernel,
-		             precision, result_text(test->result), test->different, test->compared,
-		             test->message);
+		(void)printf("device %zu  %-12s %s  %-9s  %zu of %zu numbers differ  %s\n", index,
+		             test->kernel, precision, result_text(test->result), test->different,
+		             test->compared, test->message);
 }
 
 static batten_status test_device(batten_context *context, size_t index, bool as_json, json_t *list)
@@ -167,8 +172,8 @@ batten_status cli_selftest(int argc, char **argv)
 	};
 	size_t count = 0;
 	bool done = false;
-	batten_status status = cli_parse(&selftest_command, argc, argv, options, &common, NULL, 0, &count,
-	                                 &done);
+	batten_status status = cli_parse(&selftest_command, argc, argv, options, &common, NULL, 0,
+	                                 &count, &done);
 	if (status != BATTEN_OK || done)
 		return status;
 	if (device == BATTEN_DEVICE_REFERENCE)

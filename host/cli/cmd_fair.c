@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { LOCK_LIMIT = 256 };
 
@@ -16,7 +17,7 @@ static const cli_command command = {
 	.usage = "HULL.csv [--out DIR] [OPTION ...]",
 	.summary = "replaces gross errors of the offsets, then fairs them by pattern search",
 	.example = "  batten fair data/hulls/npl_parent.csv --out demo\n"
-	           "  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n",
+			   "  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
 		"NAME-faired by default. Minimises w1 * bending energy + w2 * closeness / h^4 (h: half-beam) over\n"
@@ -155,17 +156,22 @@ static batten_status run(fair_job *job)
 {
 	char folder[PATH_MAX];
 	batten_lock locks[LOCK_LIMIT];
-	batten_fair_options options;
+	batten_fair_options *options = &job->options;
 	batten_status status = choose_folder(job->request, folder);
 	if (status == BATTEN_OK)
 		status = read_hulls(job);
 	if (status == BATTEN_OK)
-		status = fair_options_read(job->request, job->hull, &options, locks, LOCK_LIMIT);
+		status = fair_options_read(job->request, job->hull, options, locks, LOCK_LIMIT);
 	if (status != BATTEN_OK)
 		return status;
-	options.lower = job->lower;
-	options.upper = job->upper;
-	const batten_status faired = batten_hull_fair(job->context, job->hull, &options, &job->fairing);
+	options->lower = job->lower;
+	options->upper = job->upper;
+	/* A large table takes a while. */
+	if (isatty(STDERR_FILENO) && !job->request->common.quiet)
+		(void)fprintf(stderr, "fairing %s: %zu stations, %zu waterlines ...\n",
+		              batten_hull_name(job->hull), batten_hull_station_count(job->hull),
+		              batten_hull_waterline_count(job->hull));
+	const batten_status faired = batten_hull_fair(job->context, job->hull, options, &job->fairing);
 	if (faired != BATTEN_OK && faired != BATTEN_INCOMPLETE)
 		return cli_failure("fair", job->context, faired);
 	status = measure_job(job);
@@ -226,8 +232,9 @@ batten_status cli_fair(int argc, char **argv)
 		                     .search = "auto",
 		                     .variables = "offsets",
 		                     .fairness = "bending",
-		                     .w1 = -1.0,
-		                     .w2 = -1.0,
+		                     .w1 = NAN,
+		                     .w2 = NAN,
+		                     .iterations = UINT_MAX,
 		                     .device = BATTEN_DEVICE_AUTO,
 		                     .precision = BATTEN_F64,
 		                     .argc = argc,

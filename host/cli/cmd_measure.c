@@ -3,6 +3,7 @@
 
 #include "json_out.h"
 
+#include <math.h>
 #include <string.h>
 
 static const cli_command command = {
@@ -10,9 +11,10 @@ static const cli_command command = {
 	.usage = "HULL.csv [OPTION ...]",
 	.summary = "fairness numbers, energies, form coefficients and hydrostatics of a hull",
 	.example = "  batten measure data/hulls/wigley.csv --json\n",
-	.notes = "Units and signs stand in the names; frame: origin at the aft perpendicular on the baseline,\n"
-	         "x forward, z up. L of the coefficients is lbp_m, B is beam_wl_m. '-' (null in JSON): not\n"
-	         "defined for this hull.\n",
+	.notes =
+		"Units and signs stand in the names; frame: origin at the aft perpendicular on the baseline,\n"
+		"x forward, z up. L of the coefficients is lbp_m, B is beam_wl_m. '-' (null in JSON): not\n"
+		"defined for this hull.\n",
 };
 
 static const char *const quadratures[] = { "spline", "simpson", "trapezoid" };
@@ -79,7 +81,7 @@ batten_status cli_measure(int argc, char **argv)
 	batten_measure_options chosen;
 	batten_measure_options_default(&chosen);
 	const char *quadrature = "spline";
-	double draft = 0.0;
+	double draft = NAN;
 	const cli_option options[] = {
 		{ "draft", CLI_NUMBER, &draft, "T", "draft in metres (default: the file's)" },
 		{ "quadrature", CLI_TEXT, &quadrature, "RULE", "spline (default), simpson or trapezoid" },
@@ -89,14 +91,15 @@ batten_status cli_measure(int argc, char **argv)
 	const char *path = NULL;
 	size_t count = 0;
 	bool done = false;
-	batten_status status = cli_parse(&command, argc, argv, options, &common, &path, 1, &count, &done);
+	batten_status status = cli_parse(&command, argc, argv, options, &common, &path, 1, &count,
+	                                 &done);
 	if (status != BATTEN_OK || done)
 		return status;
 	if (count != 1)
 		return cli_usage("measure", "an offsets file was expected");
-	if (draft < 0.0)
-		return cli_usage("measure", "--draft: found %g, a draft above 0 was expected", draft);
-	chosen.draft_m = draft;
+	if (draft <= 0.0)
+		return cli_usage("measure", "--draft: found %g, expected a draft above 0", draft);
+	chosen.draft_m = isnan(draft) ? 0.0 : draft;
 	status = read_quadrature(quadrature, &chosen.quadrature);
 	batten_context *context = NULL;
 	if (status == BATTEN_OK)

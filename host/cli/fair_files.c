@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -28,8 +29,8 @@ static batten_status join(char *path, size_t size, const char *folder, const cha
 	return BATTEN_OK;
 }
 
-/* The folder and those above it. */
-static batten_status make_folders(const char *folder)
+/* The folder and those above it; *made tells whether the last of them is new. */
+static batten_status make_folders(const char *folder, bool *made)
 {
 	char path[PATH_MAX];
 	if (snprintf(path, sizeof path, "%s", folder) >= (int)sizeof path) {
@@ -41,7 +42,8 @@ static batten_status make_folders(const char *folder)
 			continue;
 		const char kept = *end;
 		*end = '\0';
-		if (mkdir(path, 0777) != 0 && errno != EEXIST)
+		*made = mkdir(path, 0777) == 0;
+		if (!*made && errno != EEXIST)
 			return complain(path, "cannot be made");
 		*end = kept;
 		if (kept == '\0')
@@ -58,8 +60,8 @@ static batten_status make_folders(const char *folder)
 }
 
 /* One curvature map; without a Vulkan driver there is none, and that is no failure. */
-static batten_status draw_map(fair_job *job, const batten_hull *hull, const char *when, double scale,
-                              const char *path)
+static batten_status draw_map(fair_job *job, const batten_hull *hull, const char *when,
+                              double scale, const char *path)
 {
 	char title[256];
 	(void)snprintf(title, sizeof title, "%s: %s", batten_hull_name(hull), when);
@@ -78,7 +80,8 @@ static batten_status draw_maps(fair_job *job, const char *before, const char *af
 		status = draw_map(job, job->before.hull, "before fairing", scale, before);
 	if (status == BATTEN_OK)
 		status = draw_map(job, job->after.hull, "after fairing", scale, after);
-	if (status == BATTEN_DEVICE) {
+	/* No driver, or nothing that has a curvature. */
+	if (status == BATTEN_DEVICE || status == BATTEN_INPUT) {
 		job->vulkan_driver[0] = '\0';
 		fair_warn(job, "before.png and after.png are not drawn: %s",
 		          batten_context_error(job->context));
@@ -106,7 +109,8 @@ static batten_status write_all(fair_job *job, char paths[FILE_COUNT][PATH_MAX])
 {
 	batten_status status = batten_hull_write(job->context, job->after.hull, paths[FAIRED]);
 	if (status == BATTEN_OK)
-		status = batten_picture_lines(job->context, job->before.hull, job->after.hull, paths[LINES]);
+		status = batten_picture_lines(job->context, job->before.hull, job->after.hull,
+		                              paths[LINES]);
 	if (status == BATTEN_OK)
 		status = draw_maps(job, paths[BEFORE], paths[AFTER]);
 	if (status != BATTEN_OK)
@@ -114,24 +118,43 @@ static batten_status write_all(fair_job *job, char paths[FILE_COUNT][PATH_MAX])
 	return write_report(job, paths[REPORT]);
 }
 
-static batten_status move_all(const char *folder, char paths[FILE_COUNT][PATH_MAX])
+/* Whether every file can be put into its place; a folder of that name cannot be replaced. */
+static batten_status check_targets(const char *folder)
 {
 	for (size_t f = 0; f < FILE_COUNT; f++) {
 		char target[PATH_MAX];
-		batten_status status = join(target, sizeof target, folder, file_names[f]);
+		struct stat facts;
+		const batten_status status = join(target, sizeof target, folder, file_names[f]);
 		if (status != BATTEN_OK)
 			return status;
-		if (rename(paths[f], target) != 0 && errno != ENOENT)
+		if (stat(target, &facts) == 0 && S_ISDIR(facts.st_mode)) {
+			errno = EISDIR;
 			return complain(target, "cannot be written");
+		}
 	}
 	return BATTEN_OK;
 }
 
-batten_status fair_files_write(fair_job *job, const char *folder)
+/* Pictures that were not drawn leave no older ones behind, which would show another hull. */
+static batten_status move_all(const char *folder, char paths[FILE_COUNT][PATH_MAX])
+{
+	for (size_t f = 0; f < FILE_COUNT; f++) {
+		char target[PATH_MAX];
+		const batten_status status = join(target, sizeof target, folder, file_names[f]);
+		if (status != BATTEN_OK)
+			return status;
+		const bool made = access(paths[f], F_OK) == 0;
+		if (made ? rename(paths[f], target) != 0 : unlink(target) != 0 && errno != ENOENT)
+			return complain(target, made ? "cannot be written" : "cannot be removed");
+	}
+	return BATTEN_OK;
+}
+
+static batten_status make_and_move(fair_job *job, const char *folder)
 {
 	char making[PATH_MAX];
 	char paths[FILE_COUNT][PATH_MAX];
-	batten_status status = make_folders(folder);
+	batten_status status = check_targets(folder);
 	if (status == BATTEN_OK)
 		status = join(making, sizeof making, folder, ".making-XXXXXX");
 	if (status == BATTEN_OK && !mkdtemp(making))
@@ -146,5 +169,26 @@ batten_status fair_files_write(fair_job *job, const char *folder)
 	for (size_t f = 0; f < FILE_COUNT; f++)
 		(void)unlink(paths[f]);
 	(void)rmdir(making);
+	return status;
+}
+
+batten_status fair_files_write(fair_job *job, const char *folder)
+{
+	bool made = false;
+	batten_status status = make_folders(folder, &made);
+	if (status != BATTEN_OK)
+		return status;
+	/* An interrupt waits the second this takes, so that nothing half-made stays behind. */
+	sigset_t waiting;
+	sigset_t before;
+	(void)sigemptyset(&waiting);
+	(void)sigaddset(&waiting, SIGINT);
+	(void)sigaddset(&waiting, SIGTERM);
+	(void)sigaddset(&waiting, SIGHUP);
+	(void)sigprocmask(SIG_BLOCK, &waiting, &before);
+	status = make_and_move(job, folder);
+	if (status != BATTEN_OK && made)
+		(void)rmdir(folder);
+	(void)sigprocmask(SIG_SETMASK, &before, NULL);
 	return status;
 }

@@ -12,9 +12,9 @@ typedef struct fair_request {
 	cli_common common;
 	const char *hull_path, *out, *method, *search, *variables, *fairness;
 	const char *max_distance, *lock, *lower_path, *upper_path;
-	double w1, w2; /* negative: not given */
+	double w1, w2; /* NaN: not given */
 	bool no_smooth;
-	unsigned iterations, seed;
+	unsigned iterations, seed; /* iterations UINT_MAX: not given */
 	int device;
 	batten_precision precision;
 	int argc;
@@ -33,6 +33,7 @@ typedef struct fair_job {
 	batten_context *context;
 	const fair_request *request;
 	batten_hull *hull, *lower, *upper;
+	batten_fair_options options; /* as understood */
 	batten_fairing *fairing;
 	fair_state before, smoothed, after;
 	batten_line *lines_before, *lines_after;

@@ -1,6 +1,7 @@
 /* What the options of batten fair ask for. */
 #include "fair_job.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,16 +55,17 @@ static batten_status read_distance(const char *text, batten_fair_options *option
 				return BATTEN_OK;
 			}
 	}
-	return cli_usage("fair", "--max-distance: found '%s', expected e.g. 1%% (of the half-beam) or 0.5mm",
-	                 text);
+	return cli_usage(
+		"fair", "--max-distance: found '%s', expected e.g. 1%% (of the half-beam) or 0.5mm", text);
 }
 
 static batten_status bad_lock(const char *text, size_t length)
 {
-	return cli_usage("fair",
-	                 "--lock: found '%.*s', expected station:X, waterline:Z or point:X@Z in the unit "
-	                 "and frame of the file",
-	                 (int)length, text);
+	return cli_usage(
+		"fair",
+		"--lock: found '%.*s', expected station:X, waterline:Z or point:X@Z in the unit "
+		"and frame of the file",
+		(int)length, text);
 }
 
 /* One lock: text[0..length). */
@@ -126,15 +128,20 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 	batten_status status = check_words(request);
 	if (status != BATTEN_OK)
 		return status;
-	if ((request->w1 < 0.0) != (request->w2 < 0.0))
-		return cli_usage("fair", "--w1 and --w2 go together, not negative");
-	options->weights_given = request->w1 >= 0.0;
+	options->weights_given = !isnan(request->w1);
+	if (options->weights_given == isnan(request->w2))
+		return cli_usage("fair", "--w1 and --w2 go together");
+	if (request->w1 < 0.0 || request->w2 < 0.0)
+		return cli_usage("fair", "--w1 %g --w2 %g: expected two weights, not negative", request->w1,
+		                 request->w2);
+	if (request->iterations == 0)
+		return cli_usage("fair", "--iterations: found 0, expected 1 to 1000000");
 	options->w1 = request->w1;
 	options->w2 = request->w2;
 	options->smooth = !request->no_smooth;
 	options->search.device = request->device;
 	options->search.precision = request->precision;
-	if (request->iterations > 0)
+	if (request->iterations != UINT_MAX)
 		options->search.iteration_limit = request->iterations;
 	if (request->max_distance)
 		status = read_distance(request->max_distance, options);

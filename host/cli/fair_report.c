@@ -45,8 +45,9 @@ static json_t *hull_json(const batten_hull *hull)
 	set(object, "stations", count(batten_hull_station_count(hull)));
 	set(object, "waterlines", count(batten_hull_waterline_count(hull)));
 	set(object, "grid",
-	    json_string("energies: differences over 3 x 3 offsets, nodes whose neighbours are all on the "
-	                "hull; hydrostatics: not-a-knot spline in z, natural spline in x"));
+	    json_string(
+			"energies: differences over 3 x 3 offsets, nodes whose neighbours are all on the "
+			"hull; hydrostatics: not-a-knot spline in z, natural spline in x"));
 	return object;
 }
 
@@ -107,6 +108,13 @@ static json_t *lines_json(const fair_job *job)
 	return list;
 }
 
+static json_t *device_json(int device)
+{
+	if (device == BATTEN_DEVICE_AUTO)
+		return json_string("auto");
+	return device == BATTEN_DEVICE_REFERENCE ? json_string("reference") : json_integer(device);
+}
+
 static json_t *method_json(const fair_job *job)
 {
 	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
@@ -127,6 +135,8 @@ static json_t *method_json(const fair_job *job)
 	set(object, "lower", request->lower_path ? json_string(request->lower_path) : json_null());
 	set(object, "upper", request->upper_path ? json_string(request->upper_path) : json_null());
 	set(object, "seed", count(request->seed));
+	set(object, "device_asked_for", device_json(request->device));
+	set(object, "iteration_limit", count(job->options.search.iteration_limit));
 	set(object, "variable_count", count(facts.variable_count));
 	set(object, "at_limit_count", count(facts.at_limit_count));
 	set(object, "filled_count", count(facts.filled_count));

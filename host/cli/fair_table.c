@@ -18,12 +18,15 @@ static void print_change(FILE *stream, const char *name, double smoothed, double
 {
 	const bool absolute = strstr(name, "_pct_") || strcmp(name, "inflections") == 0 ||
 	                      fabs(smoothed) < 1e-9;
+	double percent = 100.0 * (after - smoothed) / fabs(smoothed);
+	if (fabs(percent) < 0.005)
+		percent = 0.0; /* not "-0.00" */
 	if (isnan(smoothed) || isnan(after))
 		(void)fprintf(stream, " %11s", "-");
 	else if (absolute)
 		(void)fprintf(stream, " %+11.4g", fabs(after - smoothed) < 1e-9 ? 0.0 : after - smoothed);
 	else
-		(void)fprintf(stream, " %+9.2f %%", 100.0 * (after - smoothed) / fabs(smoothed));
+		(void)fprintf(stream, " %+9.2f %%", percent);
 }
 
 static void print_row(FILE *stream, const char *name, double before, double smoothed, double after)
@@ -40,11 +43,21 @@ static void print_row(FILE *stream, const char *name, double before, double smoo
 static bool is_short(const char *name)
 {
 	static const char *const names[] = {
-		"volume_m3",   "wetted_surface_m2", "cb",
-		"cp",          "cm",                "cwp",
-		"kb_m",        "bmt_m",             "lcb_pct_lbp_fwd",
-		"fn_per_m2",   "fn_sections_per_m2", "energy_bending",
-		"energy_mean", "noise_m",           "inflections",
+		"volume_m3",
+		"wetted_surface_m2",
+		"cb",
+		"cp",
+		"cm",
+		"cwp",
+		"kb_m",
+		"bmt_m",
+		"lcb_pct_lbp_fwd",
+		"fn_per_m2",
+		"fn_sections_per_m2",
+		"energy_bending",
+		"energy_mean",
+		"noise_m",
+		"inflections",
 		"lcf_pct_lbp_fwd",
 	};
 	for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
@@ -85,12 +98,13 @@ void fair_table_print(const fair_job *job, FILE *stream)
 	              job->smoothed.to_input.cn_pct, job->after.to_input.cn_pct);
 	(void)fprintf(stream, "%-22s %12s %12s %12.6g\n", "cn_search_pct", "", "",
 	              job->after.to_smoothed.cn_pct);
-	(void)fprintf(stream,
-	              "\nsearch: %s after %u iterations, %llu probes; objective %.6g to %.6g; w2/w1 = %.4g%s;\n"
-	              "%zu of %zu offsets at their limit of %.4g m; %.3f s on %s\n",
-	              batten_search_end_text(result->end), result->iterations,
-	              (unsigned long long)result->probes, result->objective_start, result->objective_end,
-	              facts.w2 / facts.w1, facts.weights_by_noise ? " (by the noise of the offsets)" : "",
-	              facts.at_limit_count, facts.variable_count, facts.max_distance_m,
-	              batten_fairing_run(job->fairing)->seconds, batten_fairing_run(job->fairing)->device);
+	(void)fprintf(
+		stream,
+		"\nsearch: %s after %u iterations, %llu probes; objective %.6g to %.6g; w2/w1 = %.4g%s;\n"
+		"%zu of %zu offsets at a bound (distance limit %.4g m); %.3f s on %s\n",
+		batten_search_end_text(result->end), result->iterations, (unsigned long long)result->probes,
+		result->objective_start, result->objective_end, facts.w2 / facts.w1,
+		facts.weights_by_noise ? " (by the noise of the offsets)" : "", facts.at_limit_count,
+		facts.variable_count, facts.max_distance_m, batten_fairing_run(job->fairing)->seconds,
+		batten_fairing_run(job->fairing)->device);
 }

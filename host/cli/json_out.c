@@ -28,6 +28,7 @@ batten_status cli_json_print(const char *command, json_t *object)
 {
 	const batten_status status = cli_json_write(object, stdout);
 	if (status != BATTEN_OK)
-		(void)fprintf(stderr, "batten %s: standard output: %s\n", command, batten_status_text(status));
+		(void)fprintf(stderr, "batten %s: standard output: %s\n", command,
+		              batten_status_text(status));
 	return status;
 }

@@ -1,6 +1,7 @@
 /* The program: picks the subcommand. */
 #include "cli.h"
 
+#include <signal.h>
 #include <string.h>
 
 typedef struct subcommand {
@@ -19,16 +20,18 @@ static const subcommand subcommands[] = {
 
 static void print_help(FILE *stream)
 {
-	(void)fprintf(stream, "batten %s: fairs ship hulls in bulk\n\nusage: batten COMMAND [OPTION ...]\n\n",
+	(void)fprintf(stream,
+	              "batten %s: fairs ship hulls in bulk\n\nusage: batten COMMAND [OPTION ...]\n\n",
 	              batten_version());
 	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
 		(void)fprintf(stream, "  %-10s %s\n", subcommands[i].name, subcommands[i].summary);
-	(void)fputs("\n'batten COMMAND --help' tells more, each with an example:\n"
-	            "  batten fair data/hulls/npl_parent.csv --out demo\n"
-	            "\nexit codes: 0 done; 1 done, but not all converged; 2 usage; 3 input invalid;\n"
-	            "4 device absent or lost; 5 kernel build or self-test failed; 6 input/output error or\n"
-	            "a package missing; 70 internal error or out of memory; 75 interrupted\n",
-	            stream);
+	(void)fputs(
+		"\n'batten COMMAND --help' tells more, each with an example:\n"
+		"  batten fair data/hulls/npl_parent.csv --out demo\n"
+		"\nexit codes: 0 done; 1 done, but not all converged; 2 usage; 3 input invalid;\n"
+		"4 device absent or lost; 5 kernel build or self-test failed; 6 input/output error or\n"
+		"a package missing; 70 internal error or out of memory; 75 interrupted\n",
+		stream);
 }
 
 /* What was printed must have arrived: a full disk behind stdout is an error too. */
@@ -43,11 +46,14 @@ static int finish(batten_status status)
 
 int main(int argc, char **argv)
 {
+	/* A file that grows past its limit is a write that fails, and is reported as one. */
+	(void)signal(SIGXFSZ, SIG_IGN);
 	if (argc < 2) {
 		print_help(stderr);
 		return batten_status_exit_code(BATTEN_USAGE);
 	}
-	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+	if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+	    strcmp(argv[1], "help") == 0) {
 		print_help(stdout);
 		return finish(BATTEN_OK);
 	}
@@ -58,7 +64,9 @@ int main(int argc, char **argv)
 	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
 		if (strcmp(argv[1], subcommands[i].name) == 0)
 			return finish(subcommands[i].run(argc - 1, argv + 1));
-	(void)fprintf(stderr, "batten: found '%s', a command was expected: fair, measure, devices, selftest, bench\n",
-	              argv[1]);
+	(void)fprintf(
+		stderr,
+		"batten: found '%s', a command was expected: fair, measure, devices, selftest, bench\n",
+		argv[1]);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

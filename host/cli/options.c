@@ -180,7 +180,8 @@ static size_t join(const cli_option *options, cli_common *common, cli_option *al
 	const cli_option shared[] = {
 		{ "threads", CLI_COUNT, &common->threads, "N",
 		  "CPU threads (default: the affinity mask, or SLURM_CPUS_PER_TASK)" },
-		{ "max-memory", CLI_SIZE, &common->max_memory, "SIZE", "refuse allocations above, e.g. 4G" },
+		{ "max-memory", CLI_SIZE, &common->max_memory, "SIZE",
+		  "refuse allocations above, e.g. 4G" },
 		{ "json", CLI_FLAG, &common->json, NULL, "one JSON object on standard output" },
 		{ "quiet", CLI_FLAG, &common->quiet, NULL, "no talk on standard error" },
 	};
@@ -196,8 +197,17 @@ static batten_status take(const cli_command *command, const cli_option *option, 
 {
 	const char *expected = store(option, text);
 	if (expected)
-		return cli_usage(command->name, "--%s: found '%s', expected %s", option->name, text, expected);
+		return cli_usage(command->name, "--%s: found '%s', expected %s", option->name, text,
+		                 expected);
 	return BATTEN_OK;
+}
+
+/* The word getopt stumbled over: within a cluster of letters it has not moved on yet. */
+static const char *unknown_option(int argc, char **argv)
+{
+	const char *here = optind < argc ? argv[optind] : "";
+	const bool in_cluster = optopt != 0 && here[0] == '-' && here[1] != '-' && strchr(here, optopt);
+	return in_cluster ? here : argv[optind - 1];
 }
 
 batten_status cli_parse(const cli_command *command, int argc, char **argv,
@@ -209,7 +219,8 @@ batten_status cli_parse(const cli_command *command, int argc, char **argv,
 	const size_t known = join(options, common, all);
 	for (size_t i = 0; i < known; i++)
 		long_options[i] = (struct option){ all[i].name,
-			                               all[i].kind == CLI_FLAG ? no_argument : required_argument,
+			                               all[i].kind == CLI_FLAG ? no_argument
+			                                                       : required_argument,
 			                               NULL, (int)i + 256 };
 	long_options[known] = (struct option){ "help", no_argument, NULL, 'h' };
 	*done = false;
@@ -217,6 +228,7 @@ batten_status cli_parse(const cli_command *command, int argc, char **argv,
 	opterr = 0;
 	optind = 1;
 	int found = 0;
+	bool seen[OPTION_LIMIT] = { false };
 	while ((found = getopt_long(argc, argv, ":h", long_options, NULL)) != -1) {
 		if (found == 'h') {
 			print_help(command, all, known);
@@ -225,16 +237,22 @@ batten_status cli_parse(const cli_command *command, int argc, char **argv,
 		}
 		if (found == '?')
 			return cli_usage(command->name, "found '%s', an option of this command was expected",
-			                 argv[optind - 1]);
+			                 unknown_option(argc, argv));
 		if (found == ':')
 			return cli_usage(command->name, "%s needs a value", argv[optind - 1]);
-		const batten_status status = take(command, &all[found - 256], optarg);
+		const size_t index = (size_t)(found - 256);
+		if (seen[index])
+			return cli_usage(command->name, "--%s is given twice, once was expected",
+			                 all[index].name);
+		seen[index] = true;
+		const batten_status status = take(command, &all[index], optarg);
 		if (status != BATTEN_OK)
 			return status;
 	}
 	for (; optind < argc; optind++) {
 		if (*count == most)
-			return cli_usage(command->name, "found '%s' after %zu argument%s, none more was expected",
+			return cli_usage(command->name,
+			                 "found '%s' after %zu argument%s, none more was expected",
 			                 argv[optind], most, most == 1 ? "" : "s");
 		positional[(*count)++] = argv[optind];
 	}

@@ -133,15 +133,16 @@ void *batten_allocate(batten_context *context, size_t count, size_t size)
 	bool fits = !__builtin_mul_overflow(count, size, &total) && total <= SIZE_MAX / 2;
 	size_t limit = context->options.max_memory;
 	if (fits && limit > 0 && total > limit) {
-		(void)batten_fail(context, BATTEN_MEMORY, "%zu bytes are asked for, the limit is %zu", total,
-		                  limit);
+		(void)batten_fail(context, BATTEN_MEMORY, "%zu bytes are asked for, the limit is %zu",
+		                  total, limit);
 		return NULL;
 	}
 	void *memory = NULL;
 	if (fits)
 		memory = context->options.allocate(total ? total : 1, context->options.allocate_user);
 	if (!memory) {
-		(void)batten_fail(context, BATTEN_MEMORY, "out of memory: %zu times %zu bytes", count, size);
+		(void)batten_fail(context, BATTEN_MEMORY, "out of memory: %zu times %zu bytes", count,
+		                  size);
 		return NULL;
 	}
 	memset(memory, 0, total ? total : 1);

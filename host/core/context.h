@@ -13,7 +13,7 @@ struct search_engine;
 struct batten_context {
 	batten_context_options options; /* allocate, release and threads are always set */
 	char *cache_directory;          /* owned copy, or NULL for the default */
-	pthread_mutex_t error_lock; /* workers fail in their own threads */
+	pthread_mutex_t error_lock;     /* workers fail in their own threads */
 	char error[1024];
 	struct device_system *devices; /* OpenCL, opened at first use; owned by host/device */
 	struct search_engine *engines; /* kernels built so far; owned by host/batch */

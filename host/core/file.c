@@ -106,8 +106,8 @@ batten_status batten_file_commit(batten_context *context, batten_file *file)
 	file->stream = NULL;
 	good = good && rename(file->temporary, file->path) == 0;
 	if (!good) {
-		batten_status status = batten_fail(context, BATTEN_IO, "%s: cannot be written: %s", file->path,
-		                                   errno ? strerror(errno) : "write failed");
+		batten_status status = batten_fail(context, BATTEN_IO, "%s: cannot be written: %s",
+		                                   file->path, errno ? strerror(errno) : "write failed");
 		batten_file_abandon(context, file);
 		return status;
 	}

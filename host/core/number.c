@@ -69,7 +69,9 @@ char *batten_number_write(char buffer[BATTEN_NUMBER_SIZE], double value)
 {
 	if (!isfinite(value)) {
 		(void)snprintf(buffer, BATTEN_NUMBER_SIZE, "%s",
-		               isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
+		               isnan(value) ? "nan"
+		               : value < 0  ? "-inf"
+		                            : "inf");
 		return buffer;
 	}
 	for (int digits = 15; digits <= 17; digits++) {

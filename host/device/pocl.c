@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 /* PoCL 3.1 ends the process, without any code returned, when its cache folder
@@ -57,6 +58,14 @@ static bool use_private(void)
 	return true;
 }
 
+/* LLVM inside PoCL ends the process when a file of the cache cannot grow. */
+static bool files_may_grow(void)
+{
+	struct rlimit limit;
+	return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+	       limit.rlim_cur >= FOLDER_ROOM;
+}
+
 static bool is_usable(const char *path)
 {
 	return strlen(path) <= FOLDER_LENGTH_MOST && device_folder_usable(path, FOLDER_ROOM, true);
@@ -79,7 +88,7 @@ static bool choose_folder(void)
 
 bool device_pocl_prepare(unsigned threads)
 {
-	if (!choose_folder())
+	if (!files_may_grow() || !choose_folder())
 		return false;
 	char count[16];
 	(void)snprintf(count, sizeof count, "%u", threads);

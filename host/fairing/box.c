@@ -39,12 +39,12 @@ static batten_status bound_node(batten_context *context, const batten_hull *hull
 	if (options->upper && options->upper->nodes[node] == BATTEN_NODE_GIVEN)
 		reduce(&upper, options->upper->y_m[node], "the upper offsets");
 	if (lower.value > upper.value)
-		return batten_fail(context, BATTEN_INPUT,
-		                   "x = %g m, z = %g m: %s ask for at least %g m and %s for at most %g m: no "
-		                   "half-breadth satisfies both",
-		                   hull->x_m[node % hull->station_count],
-		                   hull->z_m[node / hull->station_count], lower.cause, lower.value,
-		                   upper.cause, upper.value);
+		return batten_fail(
+			context, BATTEN_INPUT,
+			"x = %g m, z = %g m: %s ask for at least %g m and %s for at most %g m: no "
+			"half-breadth satisfies both",
+			hull->x_m[node % hull->station_count], hull->z_m[node / hull->station_count],
+			lower.cause, lower.value, upper.cause, upper.value);
 	box->lower_m[node] = lower.value;
 	box->upper_m[node] = upper.value;
 	return BATTEN_OK;
@@ -63,7 +63,7 @@ static void hold(fairing_box *box, const batten_hull *hull, size_t node)
 }
 
 static batten_status apply_lock(batten_context *context, const batten_hull *hull,
-                                const batten_lock *lock, fairing_box *box)
+                                const batten_lock *lock, uint8_t *locked)
 {
 	const size_t nx = hull->station_count;
 	const bool needs_station = lock->kind != BATTEN_LOCK_WATERLINE;
@@ -71,15 +71,32 @@ static batten_status apply_lock(batten_context *context, const batten_hull *hull
 	const size_t station = needs_station ? hull_station_at(hull, lock->x_m) : 0;
 	const size_t waterline = needs_waterline ? hull_waterline_at(hull, lock->z_m) : 0;
 	if (station == SIZE_MAX)
-		return batten_fail(context, BATTEN_USAGE, "lock: no station of the table stands at x = %g m",
-		                   lock->x_m);
+		return batten_fail(context, BATTEN_USAGE,
+		                   "lock: no station of the table stands at x = %g m", lock->x_m);
 	if (waterline == SIZE_MAX)
-		return batten_fail(context, BATTEN_USAGE, "lock: no waterline of the table lies at z = %g m",
-		                   lock->z_m);
+		return batten_fail(context, BATTEN_USAGE,
+		                   "lock: no waterline of the table lies at z = %g m", lock->z_m);
 	for (size_t k = 0; k < hull->waterline_count; k++)
 		for (size_t i = 0; i < nx; i++)
 			if ((!needs_station || i == station) && (!needs_waterline || k == waterline))
-				hold(box, hull, k * nx + i);
+				locked[k * nx + i] = 1;
+	return BATTEN_OK;
+}
+
+batten_status fairing_locks_create(batten_context *context, const batten_hull *hull,
+                                   const batten_fair_options *options, uint8_t **out)
+{
+	uint8_t *locked = batten_allocate(context, hull_node_count(hull), sizeof *locked);
+	if (!locked)
+		return BATTEN_MEMORY;
+	batten_status status = BATTEN_OK;
+	for (size_t l = 0; l < options->lock_count && status == BATTEN_OK; l++)
+		status = apply_lock(context, hull, &options->locks[l], locked);
+	if (status != BATTEN_OK) {
+		batten_release(context, locked);
+		return status;
+	}
+	*out = locked;
 	return BATTEN_OK;
 }
 
@@ -96,12 +113,14 @@ static batten_status check_table(batten_context *context, const batten_hull *hul
 		same = hull_waterline_at(hull, bounds->z_m[k]) == k;
 	if (!same)
 		return batten_fail(context, BATTEN_USAGE,
-		                   "the %s offsets stand on another table of stations and waterlines", which);
+		                   "the %s offsets stand on another table of stations and waterlines",
+		                   which);
 	return BATTEN_OK;
 }
 
 static batten_status fill(batten_context *context, const batten_hull *hull,
-                          const batten_fair_options *options, double distance, fairing_box *box)
+                          const batten_fair_options *options, const uint8_t *locked,
+                          double distance, fairing_box *box)
 {
 	const size_t nodes = hull_node_count(hull);
 	batten_status status = check_table(context, hull, options->lower, "lower");
@@ -110,19 +129,16 @@ static batten_status fill(batten_context *context, const batten_hull *hull,
 	for (size_t n = 0; n < nodes && status == BATTEN_OK; n++) {
 		hold(box, hull, n);
 		box->closeness_weight[n] = hull->nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
-		if (is_variable(hull, n))
+		if (is_variable(hull, n) && !locked[n])
 			status = bound_node(context, hull, options, distance, n, box);
-	}
-	for (size_t l = 0; l < options->lock_count && status == BATTEN_OK; l++)
-		status = apply_lock(context, hull, &options->locks[l], box);
-	for (size_t n = 0; n < nodes && status == BATTEN_OK; n++)
 		box->variable_count += box->lower_m[n] < box->upper_m[n];
+	}
 	return status;
 }
 
 batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,
-                                 const batten_fair_options *options, double distance_m,
-                                 fairing_box *out)
+                                 const batten_fair_options *options, const uint8_t *locked,
+                                 double distance_m, fairing_box *out)
 {
 	fairing_box box = { 0 };
 	const size_t nodes = hull_node_count(smoothed);
@@ -131,7 +147,7 @@ batten_status fairing_box_create(batten_context *context, const batten_hull *smo
 	box.closeness_weight = batten_allocate(context, nodes, sizeof(double));
 	batten_status status = BATTEN_MEMORY;
 	if (box.lower_m && box.upper_m && box.closeness_weight)
-		status = fill(context, smoothed, options, distance_m, &box);
+		status = fill(context, smoothed, options, locked, distance_m, &box);
 	if (status != BATTEN_OK) {
 		fairing_box_release(context, &box);
 		return status;

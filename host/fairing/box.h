@@ -1,4 +1,4 @@
-/* What the search may do to a hull: its variables and their bounds. */
+/* What fairing may do to a hull: its locks, the variables of the search and their bounds. */
 #ifndef BATTEN_FAIRING_BOX_H
 #define BATTEN_FAIRING_BOX_H
 
@@ -10,13 +10,18 @@ typedef struct fairing_box {
 	size_t variable_count;
 } fairing_box;
 
+/* 1 at each node that a lock of the options holds, [waterlines][stations], released by the caller.
+ * Errors: USAGE (a lock that is not on the table), MEMORY. */
+batten_status fairing_locks_create(batten_context *context, const batten_hull *hull,
+                                   const batten_fair_options *options, uint8_t **out);
+
 /* Variables are the positive offsets and the '?' cells that no lock holds; profile zeros stay. Bounds:
  * 0 <= y <= 1.2 h, |y - smoothed| <= distance, and the lower and upper hulls of the options.
- * Errors: USAGE (a lock or a bound that is not on the table), INPUT (bounds that exclude each other,
- * naming the offset and the two), MEMORY. */
+ * Errors: USAGE (a bound that is not on the table), INPUT (bounds that exclude each other, naming the
+ * offset and the two), MEMORY. */
 batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,
-                                 const batten_fair_options *options, double distance_m,
-                                 fairing_box *out);
+                                 const batten_fair_options *options, const uint8_t *locked,
+                                 double distance_m, fairing_box *out);
 void fairing_box_release(batten_context *context, fairing_box *box);
 
 #endif

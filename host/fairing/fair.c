@@ -4,6 +4,7 @@
 #include "fairing/noise.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The discrepancy principle: fairing may change the offsets by about their noise and not by more. The
@@ -16,6 +17,7 @@ enum { RATIO_COUNT = 32, RATIOS_A_DECADE = 4 };
 struct batten_fairing {
 	batten_context *context;
 	batten_hull *input, *smoothed, *faired;
+	uint8_t *locked;
 	batten_replacement *replacements;
 	size_t replacement_count;
 	batten_search_result result;
@@ -38,12 +40,13 @@ static batten_status check_options(batten_context *context, const batten_fair_op
 		return batten_fail(context, BATTEN_USAGE, "fair options of another version of batten");
 	if (!isfinite(options->max_distance_m) || !(options->max_distance_part >= 0.0) ||
 	    !isfinite(options->max_distance_part))
-		return batten_fail(context, BATTEN_USAGE, "a distance limit must be a number, not negative");
-	if (options->weights_given &&
-	    (!isfinite(options->w1) || !isfinite(options->w2) || options->w1 < 0.0 ||
-	     options->w2 < 0.0 || options->w1 + options->w2 == 0.0))
 		return batten_fail(context, BATTEN_USAGE,
-		                   "weights w1 = %g, w2 = %g: finite, not negative, not both 0 are expected",
+		                   "a distance limit must be a number, not negative");
+	if (options->weights_given &&
+	    (!(options->w1 >= 0.0) || !(options->w2 >= 0.0) || options->w1 > 1e100 ||
+	     options->w2 > 1e100 || options->w1 + options->w2 == 0.0))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "weights w1 = %g, w2 = %g: 0 to 1e100, not both 0, are expected",
 		                   options->w1, options->w2);
 	return BATTEN_OK;
 }
@@ -95,6 +98,23 @@ static void keep(batten_fairing *fairing, const fairing_box *box, const double *
 	fairing->facts.rms_change_m = rms_change(fairing->smoothed, box, y);
 }
 
+/* A faired table must not pass for the one it came from. */
+static batten_status mark_source(batten_fairing *fairing)
+{
+	batten_hull *hull = fairing->faired;
+	char source[HULL_TEXT_MOST + 1];
+	const int length = snprintf(source, sizeof source, "%s%sfaired by batten %s", hull->source,
+	                            hull->source[0] ? "; " : "", batten_version());
+	if (length < 0 || (size_t)length >= sizeof source)
+		return BATTEN_OK; /* no room left for it */
+	char *copy = batten_copy_text(fairing->context, source);
+	if (!copy)
+		return BATTEN_MEMORY;
+	batten_release(fairing->context, hull->source);
+	hull->source = copy;
+	return BATTEN_OK;
+}
+
 static batten_status search(batten_fairing *fairing, const batten_fair_options *options,
                             const fairing_box *box)
 {
@@ -128,8 +148,14 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 		fairing->facts.w1 = problems[chosen].w1;
 		fairing->facts.w2 = problems[chosen].w2;
 		keep(fairing, box, y + chosen * nodes);
+		/* A '?' is what its line makes of it, so that the faired hull measures the same when its
+		 * file is read again. */
+		status = hull_fill_unknown(fairing->faired, &fairing->facts.filled_count);
+		if (status == BATTEN_OK)
+			status = mark_source(fairing);
 		/* A weight that was tried and not taken may have met the limit. */
-		status = fairing->result.end == BATTEN_SEARCH_LIMIT ? BATTEN_INCOMPLETE : BATTEN_OK;
+		if (status == BATTEN_OK && fairing->result.end == BATTEN_SEARCH_LIMIT)
+			status = BATTEN_INCOMPLETE;
 	}
 	batten_release(context, y);
 	return status;
@@ -139,13 +165,15 @@ static batten_status prepare(batten_fairing *fairing, const batten_hull *hull,
                              const batten_fair_options *options)
 {
 	batten_context *context = fairing->context;
-	batten_status status = batten_hull_clone(context, hull, &fairing->input);
+	batten_status status = fairing_locks_create(context, hull, options, &fairing->locked);
+	if (status == BATTEN_OK)
+		status = batten_hull_clone(context, hull, &fairing->input);
 	if (status == BATTEN_OK)
 		status = batten_hull_clone(context, hull, &fairing->smoothed);
 	if (status == BATTEN_OK && options->smooth)
-		status = gross_errors_replace(fairing->smoothed, &fairing->replacements,
+		status = gross_errors_replace(fairing->smoothed, fairing->locked, &fairing->replacements,
 		                              &fairing->replacement_count);
-	if (status == BATTEN_OK && fairing->replacement_count > 0)
+	if (status == BATTEN_OK)
 		status = hull_fill_unknown(fairing->smoothed, &fairing->facts.filled_count);
 	if (status == BATTEN_OK)
 		status = batten_hull_clone(context, fairing->smoothed, &fairing->faired);
@@ -157,9 +185,10 @@ static batten_status prepare(batten_fairing *fairing, const batten_hull *hull,
 static batten_status check_hull(batten_context *context, const batten_hull *hull)
 {
 	if (hull->station_count < 3 || hull->waterline_count < 3)
-		return batten_fail(context, BATTEN_INPUT,
-		                   "%s: %zu stations and %zu waterlines: 3 of each are needed to fair a hull",
-		                   hull->name, hull->station_count, hull->waterline_count);
+		return batten_fail(
+			context, BATTEN_INPUT,
+			"%s: %zu stations and %zu waterlines: 3 of each are needed to fair a hull", hull->name,
+			hull->station_count, hull->waterline_count);
 	if (!(batten_hull_half_beam_m(hull) > 0.0))
 		return batten_fail(context, BATTEN_INPUT, "%s: no half-breadth is above 0", hull->name);
 	return BATTEN_OK;
@@ -177,16 +206,13 @@ static batten_status run(batten_fairing *fairing, const batten_hull *hull,
 	if (status != BATTEN_OK)
 		return status;
 	fairing->facts.weights_by_noise = !options->weights_given;
-	fairing->facts.max_distance_m =
-		options->max_distance_m >= 0.0
-			? options->max_distance_m
-			: options->max_distance_part * batten_hull_half_beam_m(fairing->smoothed);
-	fairing->facts.filled_count = 0;
-	for (size_t n = 0; n < hull_node_count(hull); n++)
-		fairing->facts.filled_count += hull->nodes[n] == BATTEN_NODE_UNKNOWN;
+	fairing->facts.max_distance_m = options->max_distance_m >= 0.0
+	                                    ? options->max_distance_m
+	                                    : options->max_distance_part *
+	                                          batten_hull_half_beam_m(fairing->smoothed);
 	fairing_box box = { 0 };
-	status = fairing_box_create(context, fairing->smoothed, options, fairing->facts.max_distance_m,
-	                            &box);
+	status = fairing_box_create(context, fairing->smoothed, options, fairing->locked,
+	                            fairing->facts.max_distance_m, &box);
 	if (status == BATTEN_OK)
 		status = search(fairing, options, &box);
 	fairing_box_release(context, &box);
@@ -218,6 +244,7 @@ void batten_fairing_destroy(batten_fairing *fairing)
 	batten_hull_destroy(fairing->input);
 	batten_hull_destroy(fairing->smoothed);
 	batten_hull_destroy(fairing->faired);
+	batten_release(fairing->context, fairing->locked);
 	batten_release(fairing->context, fairing->replacements);
 	batten_release(fairing->context, fairing);
 }

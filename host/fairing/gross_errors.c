@@ -15,7 +15,7 @@ enum { PASS_LIMIT = 10 };
 
 /* How far each node is off its lines. */
 typedef struct evidence {
-	double *off[2];   /* [section, waterline]: distance from the neighbours' cubic; NaN: no telling */
+	double *off[2]; /* [section, waterline]: distance from the neighbours' cubic; NaN: no telling */
 	double *ratio[2]; /* the same over the line's median */
 	uint8_t *mark[2]; /* 1 where the second differences alternate */
 } evidence;
@@ -142,13 +142,30 @@ static batten_status gather(const batten_hull *hull, double *sorted, evidence *e
 	return BATTEN_OK;
 }
 
+static bool is_positive(const batten_hull *hull, size_t station, size_t waterline)
+{
+	return hull->y_m[waterline * hull->station_count + station] > 0.0;
+}
+
+/* A 0 with positive offsets on all four sides is no profile point but a wrong value. */
+static bool is_profile(const batten_hull *hull, size_t node)
+{
+	const size_t i = node % hull->station_count;
+	const size_t k = node / hull->station_count;
+	if (hull->y_m[node] > 0.0)
+		return false;
+	if (i == 0 || k == 0 || i + 1 == hull->station_count || k + 1 == hull->waterline_count)
+		return true;
+	return !is_positive(hull, i - 1, k) || !is_positive(hull, i + 1, k) ||
+	       !is_positive(hull, i, k - 1) || !is_positive(hull, i, k + 1);
+}
+
 /* How strongly a node is a gross error as direction d shows it; 0 when it is none. */
-static double strength(const batten_hull *hull, const evidence *e, size_t node, int d,
-                       double least)
+static double strength(const batten_hull *hull, const evidence *e, size_t node, int d, double least)
 {
 	const double off = e->off[d][node];
 	const double crossing = e->off[1 - d][node];
-	if (hull->nodes[node] != BATTEN_NODE_GIVEN || hull->y_m[node] <= 0.0 || !e->mark[d][node] ||
+	if (hull->nodes[node] != BATTEN_NODE_GIVEN || is_profile(hull, node) || !e->mark[d][node] ||
 	    !(fabs(off) > least))
 		return 0.0;
 	const double ratio = e->ratio[d][node];
@@ -214,8 +231,9 @@ static batten_status spline_through_rest(const batten_hull *hull, bool waterline
 }
 
 /* Replaces the worst offsets of this pass; *found counts them. entry: 1 + number in list of a node. */
-static batten_status replace(batten_hull *hull, const evidence *e, double least,
-                             batten_replacement *list, size_t *entry, size_t *count, size_t *found)
+static batten_status replace(batten_hull *hull, const evidence *e, const uint8_t *locked,
+                             double least, batten_replacement *list, size_t *entry, size_t *count,
+                             size_t *found)
 {
 	const size_t nx = hull->station_count;
 	*found = 0;
@@ -224,7 +242,9 @@ static batten_status replace(batten_hull *hull, const evidence *e, double least,
 			const size_t node = k * nx + i;
 			bool waterline = false;
 			const double own = node_strength(hull, e, node, least, &waterline);
-			if (own == 0.0 || !is_worst_around(hull, e, i, k, own, least))
+			/* A locked offset is right, but still the reason why its neighbours look wrong. */
+			if (own == 0.0 || (locked && locked[node]) ||
+			    !is_worst_around(hull, e, i, k, own, least))
 				continue;
 			double value = 0.0;
 			const batten_status status = spline_through_rest(hull, waterline, waterline ? k : i,
@@ -233,8 +253,9 @@ static batten_status replace(batten_hull *hull, const evidence *e, double least,
 				return status;
 			/* Replaced again in a later pass, it stays one replacement. */
 			if (entry[node] == 0) {
-				list[*count] = (batten_replacement){ i, k, hull->x_m[i], hull->z_m[k],
-					                                 hull->y_m[node], 0.0 };
+				list[*count] = (batten_replacement){
+					i, k, hull->x_m[i], hull->z_m[k], hull->y_m[node], 0.0
+				};
 				entry[node] = ++*count;
 			}
 			list[entry[node] - 1].new_m = value;
@@ -253,8 +274,8 @@ static int compare_replacements(const void *a, const void *b)
 	return left->waterline < right->waterline ? -1 : left->waterline > right->waterline;
 }
 
-batten_status gross_errors_replace(batten_hull *hull, batten_replacement **replacements,
-                                   size_t *count)
+batten_status gross_errors_replace(batten_hull *hull, const uint8_t *locked,
+                                   batten_replacement **replacements, size_t *count)
 {
 	batten_context *context = hull->context;
 	const size_t nodes = hull_node_count(hull);
@@ -271,7 +292,7 @@ batten_status gross_errors_replace(batten_hull *hull, batten_replacement **repla
 		size_t found = 0;
 		status = gather(hull, sorted, &e);
 		if (status == BATTEN_OK)
-			status = replace(hull, &e, least, list, entry, &done, &found);
+			status = replace(hull, &e, locked, least, list, entry, &done, &found);
 		if (found == 0)
 			break;
 	}

@@ -165,17 +165,17 @@ BATTEN_API double batten_hull_lbp_m(const batten_hull *hull);
 BATTEN_API double batten_hull_draft_m(const batten_hull *hull);
 BATTEN_API size_t batten_hull_station_count(const batten_hull *hull);
 BATTEN_API size_t batten_hull_waterline_count(const batten_hull *hull);
-BATTEN_API const double *batten_hull_x_m(const batten_hull *hull); /* [stations] */
-BATTEN_API const double *batten_hull_z_m(const batten_hull *hull); /* [waterlines] */
-BATTEN_API const double *batten_hull_y_m(const batten_hull *hull); /* [waterlines][stations] */
+BATTEN_API const double *batten_hull_x_m(const batten_hull *hull);    /* [stations] */
+BATTEN_API const double *batten_hull_z_m(const batten_hull *hull);    /* [waterlines] */
+BATTEN_API const double *batten_hull_y_m(const batten_hull *hull);    /* [waterlines][stations] */
 BATTEN_API const uint8_t *batten_hull_nodes(const batten_hull *hull); /* batten_node, as y */
 
 /* Largest half-breadth of the table, line ends included (m): the h of all dimensionless figures. */
 BATTEN_API double batten_hull_half_beam_m(const batten_hull *hull);
 
 /* A place given in the frame and unit of the hull's file, as x and z inside. */
-BATTEN_API void batten_hull_place(const batten_hull *hull, double file_x, double file_z, double *x_m,
-                                  double *z_m);
+BATTEN_API void batten_hull_place(const batten_hull *hull, double file_x, double file_z,
+                                  double *x_m, double *z_m);
 
 /* Replaces the half-breadths of all nodes that are not outside. y_m as batten_hull_y_m().
  * Errors: USAGE (a negative or non-finite half-breadth). */
@@ -283,7 +283,7 @@ typedef struct batten_line {
 	batten_line_kind kind;
 	double coordinate_m;
 	size_t point_count;
-	double fn_per_m2;    /* NaN below three points */
+	double fn_per_m2; /* NaN below three points */
 	size_t inflections;
 	double change_max_m; /* against the reference; 0 without one */
 } batten_line;
@@ -331,7 +331,8 @@ typedef struct batten_selftest {
 	char kernel[32];
 	batten_precision precision;
 	batten_selftest_result result;
-	size_t compared, different; /* numbers compared with the C path, and how many differ in any bit */
+	size_t compared,
+		different; /* numbers compared with the C path, and how many differ in any bit */
 	double build_s, run_s;
 	char message[256]; /* one line when it failed */
 } batten_selftest;
@@ -361,45 +362,45 @@ typedef struct batten_search_problem {
 	const double *start_m; /* finite; clamped into the box */
 	const double *target_m;
 	const double *lower_m, *upper_m; /* lower <= upper, finite */
-	const double *closeness_weight; /* factor of each node's closeness term, >= 0; NULL: 1 */
-	double w1, w2;                  /* dimensionless, finite, >= 0, not both 0 */
-	double half_beam_m;             /* h, > 0 */
+	const double *closeness_weight;  /* factor of each node's closeness term, >= 0; NULL: 1 */
+	double w1, w2;                   /* dimensionless, 0 .. 1e100, not both 0 */
+	double half_beam_m;              /* h, > 0 */
 } batten_search_problem;
 
 typedef struct batten_search_options {
 	size_t struct_size;
-	int device;               /* an index of batten_device_count(), or AUTO, REFERENCE */
+	int device; /* an index of batten_device_count(), or AUTO, REFERENCE */
 	batten_precision precision;
 	double first_step;        /* of h: 0.02 */
 	double last_step;         /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
 	unsigned iteration_limit; /* 400 */
-	unsigned lanes;           /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
-	unsigned work_group;      /* work-items a search is shared by; 0 chooses */
+	unsigned lanes;      /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
+	unsigned work_group; /* work-items a search is shared by; 0 chooses */
 } batten_search_options;
 BATTEN_API void batten_search_options_default(batten_search_options *options);
 
 typedef enum batten_search_end {
-	BATTEN_SEARCH_CONVERGED = 0,   /* the step fell below last_step */
-	BATTEN_SEARCH_LIMIT = 1,       /* the iteration limit came first */
-	BATTEN_SEARCH_STATIONARY = 2,  /* no probe of any size improved the start */
-	BATTEN_SEARCH_REFUSED = 3,     /* invalid problem; y is not written, message says why */
+	BATTEN_SEARCH_CONVERGED = 0,  /* the step fell below last_step */
+	BATTEN_SEARCH_LIMIT = 1,      /* the iteration limit came first */
+	BATTEN_SEARCH_STATIONARY = 2, /* no probe of any size improved the start */
+	BATTEN_SEARCH_REFUSED = 3,    /* invalid problem; y is not written, message says why */
 } batten_search_end;
 BATTEN_API const char *batten_search_end_text(batten_search_end end);
 
 typedef struct batten_search_result {
 	batten_search_end end;
 	unsigned iterations;
-	uint64_t probes;             /* trial values of a direction */
+	uint64_t probes; /* trial values of a direction */
 	double objective_start, objective_end;
 	double last_step_m;
-	char message[96];            /* for REFUSED */
+	char message[96]; /* for REFUSED */
 } batten_search_result;
 
 /* What ran a batch. */
 typedef struct batten_search_run {
-	char device[128]; /* "reference" for the C path; several joined by " + " */
-	bool strict;      /* every device equals the C path bit for bit */
-	double seconds;   /* wall time of the searches, without building kernels */
+	char device[128];  /* "reference" for the C path; several joined by " + " */
+	bool strict;       /* every device equals the C path bit for bit */
+	double seconds;    /* wall time of the searches, without building kernels */
 	char warning[256]; /* one line, "" when nothing is to be said */
 } batten_search_run;
 
@@ -437,12 +438,12 @@ typedef struct batten_lock {
 typedef struct batten_fair_options {
 	size_t struct_size;
 	batten_search_options search;
-	bool smooth;               /* replace gross errors first; true */
-	bool weights_given;        /* false: by the discrepancy principle */
-	double w1, w2;             /* used when given */
-	double max_distance_m;     /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
-	double max_distance_part;  /* of h; 0.01 */
-	const batten_lock *locks;  /* borrowed for the call */
+	bool smooth;              /* replace gross errors first; true */
+	bool weights_given;       /* false: by the discrepancy principle */
+	double w1, w2;            /* used when given */
+	double max_distance_m;    /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
+	double max_distance_part; /* of h; 0.01 */
+	const batten_lock *locks; /* borrowed for the call */
 	size_t lock_count;
 	const batten_hull *lower, *upper; /* bounds on the same table, or NULL */
 } batten_fair_options;
@@ -467,14 +468,14 @@ BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairin
 BATTEN_API const batten_search_run *batten_fairing_run(const batten_fairing *fairing);
 
 typedef struct batten_fairing_facts {
-	double noise_m;           /* of the smoothed hull */
-	double w1, w2;            /* as used */
-	bool weights_by_noise;    /* chosen by the discrepancy principle */
+	double noise_m;        /* of the smoothed hull */
+	double w1, w2;         /* as used */
+	bool weights_by_noise; /* chosen by the discrepancy principle */
 	double max_distance_m;
-	size_t variable_count;    /* offsets the search may move */
-	size_t at_limit_count;    /* of these, at a bound in the end */
-	double rms_change_m;      /* over the variables, against the smoothed hull */
-	size_t filled_count;      /* '?' cells */
+	size_t variable_count; /* offsets the search may move */
+	size_t at_limit_count; /* of these, at a bound in the end */
+	double rms_change_m;   /* over the variables, against the smoothed hull */
+	size_t filled_count;   /* '?' cells */
 } batten_fairing_facts;
 BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
 
@@ -484,9 +485,9 @@ BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fa
 
 typedef struct batten_picture_options {
 	size_t struct_size;
-	unsigned width, height;  /* pixels, 64..8192; 1600 x 900 */
-	const char *title;       /* NULL takes the hull's name */
-	double scale_per_m;      /* curvature at the ends of the colour scale; 0 takes it from the hull */
+	unsigned width, height; /* pixels, 64..8192; 1600 x 900 */
+	const char *title;      /* NULL takes the hull's name */
+	double scale_per_m; /* curvature at the ends of the colour scale; 0 takes it from the hull */
 } batten_picture_options;
 BATTEN_API void batten_picture_options_default(batten_picture_options *options);
 

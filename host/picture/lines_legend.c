@@ -57,7 +57,7 @@ static void moved_text(const lines_page *page, size_t node, char *out, size_t si
 static double draw_moved(const lines_page *page, double left, double y)
 {
 	size_t count = 0;
-	for (size_t node = 0; node < hull_node_count(page->after); node++)
+	for (size_t node = 0; page->before && node < hull_node_count(page->after); node++)
 		count += lines_page_moved(page, node);
 	if (count == 0)
 		return y;

@@ -157,7 +157,8 @@ static scalar explore(const search_state *s, hat_move *move, scalar h, uint64_t 
 }
 
 /* All directions, coarse to fine. Returns the longest step taken. */
-static scalar sweep(const reference_multilevel *plan, const search_state *s, scalar h, uint64_t *extra)
+static scalar sweep(const reference_multilevel *plan, const search_state *s, scalar h,
+                    uint64_t *extra)
 {
 	scalar longest = LITERAL(0.0);
 	for (int l = plan->level_count - 1; l >= 0; l--) {
@@ -178,16 +179,15 @@ static scalar sweep(const reference_multilevel *plan, const search_state *s, sca
 }
 
 /* y + factor (y - base), kept in the box, into trial. */
-static void extrapolate(const search_state *s, const scalar *base,
-                        scalar factor, scalar *trial)
+static void extrapolate(const search_state *s, const scalar *base, scalar factor, scalar *trial)
 {
 	for (size_t n = 0; n < s->nodes; n++)
 		trial[n] = move_clamped(s->y[n], factor * (s->y[n] - base[n]), s->lower[n], s->upper[n]);
 }
 
 /* Pattern move: on along the iteration's way, doubling while the objective falls. */
-static scalar pattern(const search_state *s, const scalar *base,
-                      scalar objective, scalar *trial, uint64_t *extra)
+static scalar pattern(const search_state *s, const scalar *base, scalar objective, scalar *trial,
+                      uint64_t *extra)
 {
 	scalar best = LITERAL(0.0);
 	scalar factor = LITERAL(1.0);

@@ -57,7 +57,8 @@ SHARED_FUNCTION real bending_density(node_slopes s)
 	const real p2 = s.y_x * s.y_x;
 	const real q2 = s.y_z * s.y_z;
 	const real inverse = one / ((one + p2) + q2);
-	const real mean = ((one + q2) * s.y_xx - (two * (s.y_x * s.y_z)) * s.y_xz) + (one + p2) * s.y_zz;
+	const real mean = ((one + q2) * s.y_xx - (two * (s.y_x * s.y_z)) * s.y_xz) +
+	                  (one + p2) * s.y_zz;
 	const real gauss = s.y_xx * s.y_zz - s.y_xz * s.y_xz;
 	const real sum = (mean * mean) * inverse - two * gauss;
 	return (sum * inverse) * SQUARE_ROOT(inverse);

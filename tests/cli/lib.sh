@@ -1,7 +1,10 @@
-# What the tests of the program share; sourced by them, no test itself. A test gets BATTEN, the program,
-# and DATA, the data folder, works in a folder of its own and ends with 'finish'.
+# What the tests of the program share; sourced by them, no test itself. A test gets BATTEN, the
+# program, and DATA, the data folder, works in a folder of its own and ends with 'finish'. Names
+# that begin with an underscore belong to this file.
 set -u
 : "${BATTEN:?the program}" "${DATA:?the data folder}"
+case $BATTEN in /*) ;; *) BATTEN=$PWD/$BATTEN ;; esac
+case $DATA in /*) ;; *) DATA=$PWD/$DATA ;; esac
 LC_ALL=C
 export LC_ALL
 hulls=$DATA/hulls
@@ -31,8 +34,8 @@ without_pictures()
 	export VK_DRIVER_FILES VK_ICD_FILENAMES
 }
 
-# The program with these arguments, its output in $out, its talk in $talk, its exit code in $code. What
-# a sanitizer finds fails the test even where the exit code is the one that was expected.
+# The program with these arguments, its output in $out, its talk in $talk, its exit code in $code.
+# What a sanitizer finds fails the test even where the exit code is the one that was expected.
 out=$folder/.out
 talk=$folder/.talk
 run()
@@ -48,11 +51,11 @@ run()
 # expect CODE ARGUMENT...: runs the program, which must end with this exit code.
 expect()
 {
-	expected=$1
+	_code=$1
 	shift
 	run "$@"
-	if [ "$code" -ne "$expected" ]; then
-		fail "batten $*: exit code $code, expected $expected; it said:"
+	if [ "$code" -ne "$_code" ]; then
+		fail "batten $*: exit code $code, expected $_code; it said:"
 		cat "$talk"
 	fi
 }
@@ -91,25 +94,26 @@ state_of()
 # holds WHAT EXPRESSION NAME=VALUE...: an inequality over numbers, in awk's notation.
 holds()
 {
-	what=$1
-	expression=$2
+	_what=$1
+	_expression=$2
 	shift 2
-	assign=
-	for pair in "$@"; do
-		value=${pair#*=}
-		case $value in
+	_numbers=
+	for _pair in "$@"; do
+		case ${_pair#*=} in
 		'' | *[!-+.0-9eE]*)
-			fail "$what: ${pair%%=*} is no number: '$value'"
+			fail "$_what: ${_pair%%=*} is no number: '${_pair#*=}'"
 			return
 			;;
 		esac
-		assign="$assign ${pair%%=*} = $value;"
+		_numbers="$_numbers ${_pair%%=*} = ${_pair#*=};"
 	done
-	awk "BEGIN { $assign exit !($expression) }" </dev/null || fail "$what: not $expression with$assign"
+	awk "BEGIN { $_numbers exit !($_expression) }" </dev/null ||
+		fail "$_what: not $_expression with$_numbers"
 }
 
-# member FILE NAME: a member of the outermost object of a JSON file as the program lays it out (two
-# blanks a level). member FILE OBJECT NAME: a member of an object in it. Text without its quotes.
+# member FILE NAME: a member of the outermost object of a JSON file as the program lays it out
+# (two blanks a level). member FILE OBJECT NAME: a member of an object in it. Text without its
+# quotes.
 member()
 {
 	awk -v object="${3:+$2}" -v name="${3:-$2}" '
@@ -138,8 +142,8 @@ line_member()
 		/^    }/ && good && here - place < 1e-9 && place - here < 1e-9 { print found; exit }' "$1"
 }
 
-# JSON by reduction: texts become @, other literals #, then every array and object of those becomes #,
-# until one is left.
+# JSON by reduction: texts become @, other literals #, then every array and object of those
+# becomes #, until one is left.
 json_is_valid()
 {
 	awk '
@@ -176,18 +180,18 @@ cell()
 		$1 + 0 == z + 0 { print $at; exit }'
 }
 
-# change A B [UNIT]: the largest and the root mean square difference of the half-breadths of two tables
-# of layout grid, over the cells with a number in both, and how many these are; times UNIT.
+# change A B: the largest and the root mean square difference of the half-breadths of two tables
+# of layout grid, over the cells with a number in both, and how many these are.
 change()
 {
 	table_of "$1" >.first
 	table_of "$2" >.second
-	paste -d, .first .second | awk -F, -v unit="${3:-1}" '
+	paste -d, .first .second | awk -F, '
 		NR > 1 {
 			n = NF / 2
 			for (i = 2; i <= n; i++)
 				if ($i ~ /[0-9]/ && $(n + i) ~ /[0-9]/) {
-					d = ($i - $(n + i)) * unit
+					d = $i - $(n + i)
 					if (d < 0) d = -d
 					if (d > most) most = d
 					sum += d * d
@@ -205,13 +209,14 @@ half_beam()
 		END { printf "%.17g\n", most }'
 }
 
-# same_form A B: B is a hull on the table of A: the same header, coordinates, cells outside the hull,
-# unknown cells, profile points and rows after the table.
+# same_form A B: B is a hull on the table of A: the same header, coordinates, cells outside the
+# hull, unknown cells, profile points and rows after the table. B may say that it was faired.
 same_form()
 {
-	for file in "$1" "$2"; do
-		grep '^# [a-z-]*: ' "$file"
-		table_of "$file" | awk -F, '
+	for _file in "$1" "$2"; do
+		grep '^# [a-z-]*: ' "$_file" | sed '/^# source: /s/\(; \|: \)faired by batten [0-9.]*$/\1/; s/; $//
+			/^# source: $/d'
+		table_of "$_file" | awk -F, '
 			NR == 1 { first = $2 == "z" || $2 == "x" ? 4 : 2; print; next }
 			/^profile|^knuckle/ { print; next }
 			{
@@ -222,9 +227,9 @@ same_form()
 				print line
 			}'
 	done >.forms
-	lines=$(($(grep -c '' .forms) / 2))
-	head -n "$lines" .forms >.first
-	tail -n "+$((lines + 1))" .forms >.second
+	_half=$(($(grep -c '' .forms) / 2))
+	head -n "$_half" .forms >.first
+	tail -n "+$((_half + 1))" .forms >.second
 	cmp -s .first .second && return
 	fail "$2 is not on the table of $1:"
 	diff .first .second | head -n 6

@@ -16,9 +16,10 @@ for word in --help -h help; do
 	prints 'measure .*'
 	prints 'devices .*'
 	prints 'selftest .*'
+	prints 'bench .*'
 	prints '^exit codes'
 done
-for command in fair measure devices selftest; do
+for command in fair measure devices selftest bench; do
 	for word in --help -h; do
 		expect 0 $command $word
 		prints "^usage: batten $command"
@@ -58,6 +59,7 @@ for command in fair measure; do
 	refuses '--threads needs a value' $command --threads
 	refuses "'--frobnicate'" $command --frobnicate "$hull"
 	refuses "'-z'" $command "$hull" -z
+	refuses "'-xyz'" $command -xyz "$hull"
 	refuses '--threads.*5000' $command --threads 5000 "$hull"
 	refuses "--threads.*'two'" $command --threads two "$hull"
 	refuses "--threads.*'-1'" $command --threads -1 "$hull"
@@ -73,6 +75,7 @@ refuses "--device.*'-1'" fair --device -1 "$hull"
 refuses 'reference' selftest --device reference
 refuses "--precision.*'f16'" fair --precision f16 "$hull"
 refuses "--iterations.*'1.5'" fair --iterations 1.5 "$hull"
+refuses '--iterations' fair --iterations 0 "$hull"
 refuses "--iterations.*''" fair --iterations '' "$hull"
 refuses "--method.*'lofting'.*search" fair --method lofting "$hull"
 refuses "--search.*'lofting'.*multilevel" fair --search lofting "$hull"
@@ -82,6 +85,7 @@ refuses "--out.*''" fair --out '' "$hull"
 refuses '--w1.*--w2' fair --w1 1 "$hull"
 refuses '--w1.*--w2' fair --w2 1 "$hull"
 refuses '--w1.*--w2' fair --w1 1 --w2 -1 "$hull"
+refuses '--w1.*--w2' fair --w1 -1 --w2 -1 "$hull"
 refuses "--w1.*'nan'" fair --w1 nan --w2 1 "$hull"
 refuses "--w2.*'inf'" fair --w1 1 --w2 inf "$hull"
 refuses "--w2.*'1,5'" fair --w1 1 --w2 1,5 "$hull"
@@ -99,6 +103,7 @@ refuses 'lower' fair --lower "$hulls/npl_parent.csv" "$hull"
 refuses 'upper' fair --upper "$hulls/npl_parent.csv" "$hull"
 refuses "--quadrature.*'gauss'" measure --quadrature gauss "$hull"
 refuses "--draft.*'deep'" measure --draft deep "$hull"
+refuses '--draft' measure --draft 0 "$hull"
 refuses '--draft.*-1' measure --draft -1 "$hull"
 refuses '99.*0 to 1' measure --draft 99 "$hull"
 refuses 'density' measure --density 0 "$hull"

@@ -43,7 +43,6 @@ jansson.h cli sweep io test
 xxhash.h  device
 cmocka.h  test support
 nlopt.h   test oracle
-lbfgs.h   test oracle
 Random123 data test
 '
 

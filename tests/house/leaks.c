@@ -6,10 +6,11 @@
 
 /* The sanitizer, which may be a shared library, looks for it. */
 __attribute__((visibility("default"))) int __lsan_is_turned_off(void);
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 
 static int is_driver(struct dl_phdr_info *module, size_t size, void *user)
 {
-	static const char *const names[] = { "libpocl", "libLLVM", "libvulkan_lvp", "libVkLayer" };
+	static const char *const names[] = { "libpocl", "libLLVM", "libvulkan", "libVkLayer" };
 	(void)size;
 	(void)user;
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -21,4 +22,10 @@ static int is_driver(struct dl_phdr_info *module, size_t size, void *user)
 int __lsan_is_turned_off(void)
 {
 	return dl_iterate_phdr(is_driver, NULL);
+}
+
+/* fontconfig, which draws the captions, keeps its configuration until the process ends. */
+const char *__lsan_default_suppressions(void)
+{
+	return "leak:libfontconfig\n";
 }

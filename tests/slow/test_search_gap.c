@@ -41,7 +41,8 @@ static double searched_minimum(const search_case *c, double w2, batten_precision
 	double *y = calloc(c->nodes, sizeof *y);
 	assert_non_null(y);
 	assert_int_equal(
-		batten_search_batch(c->context, &c->grid, 1, &problem, &options, y, &result, NULL), BATTEN_OK);
+		batten_search_batch(c->context, &c->grid, 1, &problem, &options, y, &result, NULL),
+		BATTEN_OK);
 	*iterations = result.iterations;
 	const oracle_problem known = search_case_oracle(c, 1.0, w2);
 	/* The oracle's own value of the offsets the search ended with. */
@@ -60,8 +61,8 @@ static void check(const char *name, double part, double w2)
 		unsigned iterations = 0;
 		const double found = searched_minimum(&c, w2, p ? BATTEN_F32 : BATTEN_F64, &iterations);
 		const double gap = found / minimum - 1.0;
-		print_message("%s w2/w1 %g %s: gap %.2e, %u iterations, %zu of the offsets at a bound\n", name,
-		              w2, p ? "f32" : "f64", gap, iterations, at_bound);
+		print_message("%s w2/w1 %g %s: gap %.2e, %u iterations, %zu of the offsets at a bound\n",
+		              name, w2, p ? "f32" : "f64", gap, iterations, at_bound);
 		assert_true(gap <= bounds[p]);
 		/* Two methods agree on the minimum: nothing ends below it. */
 		assert_true(gap >= -1e-9);

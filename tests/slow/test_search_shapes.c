@@ -23,8 +23,9 @@ static void test_lanes(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 1, false },  { 0, BATTEN_F64, 2, 1, false }, { 0, BATTEN_F64, 4, 1, false },
-		{ 0, BATTEN_F64, 16, 1, false }, { 0, BATTEN_F32, 1, 1, false }, { 0, BATTEN_F32, 8, 1, false },
+		{ 0, BATTEN_F64, 1, 1, false }, { 0, BATTEN_F64, 2, 1, false },
+		{ 0, BATTEN_F64, 4, 1, false }, { 0, BATTEN_F64, 16, 1, false },
+		{ 0, BATTEN_F32, 1, 1, false }, { 0, BATTEN_F32, 8, 1, false },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }

@@ -22,7 +22,7 @@ search_case search_case_open(const char *name, double part, bool smoothed)
 	if (smoothed) {
 		batten_replacement *list = NULL;
 		size_t count = 0;
-		assert_int_equal(gross_errors_replace(c.hull, &list, &count), BATTEN_OK);
+		assert_int_equal(gross_errors_replace(c.hull, NULL, &list, &count), BATTEN_OK);
 		batten_release(c.context, list);
 	}
 	c.grid = (batten_grid){ batten_hull_station_count(c.hull), batten_hull_waterline_count(c.hull),

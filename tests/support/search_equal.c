@@ -15,8 +15,9 @@ void search_equal_problems(const search_case *c, batten_search_problem problems[
 		problems[p] = search_case_problem(c, 1.0, pow(10.0, 1.0 + 0.3 * p));
 }
 
-void search_equal_compare(const search_case *c, const double *y, const batten_search_result *results,
-                          const double *known_y, const batten_search_result *known)
+void search_equal_compare(const search_case *c, const double *y,
+                          const batten_search_result *results, const double *known_y,
+                          const batten_search_result *known)
 {
 	for (size_t p = 0; p < EQUAL_COUNT; p++) {
 		assert_memory_equal(&results[p].objective_start, &known[p].objective_start, sizeof(double));
@@ -40,8 +41,9 @@ static void run_engine(const search_case *c, const search_shape *shape,
 	size_t which[EQUAL_COUNT];
 	for (size_t p = 0; p < EQUAL_COUNT; p++)
 		which[p] = p;
-	assert_int_equal(search_plan_create(c->context, &c->grid, EQUAL_COUNT, problems, &options, &plan),
-	                 BATTEN_OK);
+	assert_int_equal(
+		search_plan_create(c->context, &c->grid, EQUAL_COUNT, problems, &options, &plan),
+		BATTEN_OK);
 	if (search_engine_open(c->context, shape, &engine, NULL) != BATTEN_OK ||
 	    search_engine_run(engine, plan, problems, which, EQUAL_COUNT, y, results) != BATTEN_OK)
 		fail_msg("%s", batten_context_error(c->context));

@@ -15,7 +15,8 @@ void search_equal_problems(const search_case *c, batten_search_problem problems[
 void search_equal_check(const search_case *c, const search_shape *shape);
 
 /* Fails unless two ends of a batch are the same. */
-void search_equal_compare(const search_case *c, const double *y, const batten_search_result *results,
-                          const double *known_y, const batten_search_result *known);
+void search_equal_compare(const search_case *c, const double *y,
+                          const batten_search_result *results, const double *known_y,
+                          const batten_search_result *known);
 
 #endif

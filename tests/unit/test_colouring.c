@@ -137,7 +137,7 @@ static void test_wigley_noisy(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_npl_parent),   cmocka_unit_test(test_bsra_trawler),
+		cmocka_unit_test(test_npl_parent),      cmocka_unit_test(test_bsra_trawler),
 		cmocka_unit_test(test_highspeed_craft), cmocka_unit_test(test_wigley),
 		cmocka_unit_test(test_wigley_noisy),
 	};

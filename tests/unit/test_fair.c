@@ -123,7 +123,8 @@ static void test_npl_with_weights(void **state)
 static void test_sound_hulls_keep_their_offsets(void **state)
 {
 	(void)state;
-	static const char *const names[] = { "bsra_trawler", "highspeed_craft", "wigley", "wigley_noisy" };
+	static const char *const names[] = { "bsra_trawler", "highspeed_craft", "wigley",
+		                                 "wigley_noisy" };
 	const batten_fair_options options = options_on_c_path();
 	for (size_t n = 0; n < sizeof names / sizeof names[0]; n++) {
 		fixture f = fair_shipped(names[n], &options);
@@ -186,8 +187,8 @@ static batten_hull *cosine_hull(batten_context *context, double bump)
 		y[n] = profile ? 0.0 : 0.8 * cos(0.5 * pi * u) * sin(0.5 * pi * v);
 	}
 	y[10 * COSINE_STATIONS + 8] += bump;
-	const batten_hull_table table = { "cosine", 16.0, 1.0, COSINE_STATIONS, COSINE_WATERLINES, x, z, y,
-		                              NULL };
+	const batten_hull_table table = { "cosine", 16.0, 1.0, COSINE_STATIONS, COSINE_WATERLINES, x,
+		                              z,        y,    NULL };
 	batten_hull *hull = NULL;
 	assert_int_equal(batten_hull_create(context, &table, &hull), BATTEN_OK);
 	return hull;
@@ -218,7 +219,7 @@ static void test_planted_error_is_found(void **state)
 		batten_hull *sound = cosine_hull(context, 0.0);
 		batten_replacement *list = NULL;
 		size_t count = 0;
-		assert_int_equal(gross_errors_replace(hull, &list, &count), BATTEN_OK);
+		assert_int_equal(gross_errors_replace(hull, NULL, &list, &count), BATTEN_OK);
 		assert_int_equal(count, 1);
 		assert_int_equal(list[0].station, 8);
 		assert_int_equal(list[0].waterline, 10);
@@ -228,6 +229,35 @@ static void test_planted_error_is_found(void **state)
 		batten_hull_destroy(sound);
 		batten_context_destroy(context);
 	}
+}
+
+/* A 0 amid positive offsets is no profile point. */
+static void test_lost_offset_is_found(void **state)
+{
+	(void)state;
+	batten_context *context = NULL;
+	batten_replacement *list = NULL;
+	size_t count = 0;
+	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
+	batten_hull *sound = cosine_hull(context, 0.0);
+	const double value = batten_hull_y_m(sound)[10 * COSINE_STATIONS + 8];
+	batten_hull *hull = cosine_hull(context, -value);
+	assert_int_equal(gross_errors_replace(hull, NULL, &list, &count), BATTEN_OK);
+	assert_int_equal(count, 1);
+	assert_true(list[0].old_m == 0.0 && fabs(list[0].new_m - value) < 1e-4);
+	batten_release(context, list);
+	list = NULL;
+	batten_hull_destroy(hull);
+	/* A lock is stronger, and its neighbours are not blamed for it. */
+	hull = cosine_hull(context, 0.2);
+	uint8_t locked[COSINE_NODES] = { 0 };
+	locked[10 * COSINE_STATIONS + 8] = 1;
+	assert_int_equal(gross_errors_replace(hull, locked, &list, &count), BATTEN_OK);
+	assert_int_equal(count, 0);
+	batten_release(context, list);
+	batten_hull_destroy(hull);
+	batten_hull_destroy(sound);
+	batten_context_destroy(context);
 }
 
 /* A hard chine is no gross error: its sections turn sharply, all at the same height. */
@@ -244,15 +274,15 @@ static void test_chine_is_kept(void **state)
 		const double u = (n % COSINE_STATIONS - 10.0) / 11.0;
 		y[n] = (1.0 - u * u) * (k < 9 ? 0.4 * k + 0.1 : 3.7 + 0.03 * (k - 9));
 	}
-	const batten_hull_table table = { "chine", 20.0, 1.5, COSINE_STATIONS, COSINE_WATERLINES, x, z, y,
-		                              NULL };
+	const batten_hull_table table = { "chine", 20.0, 1.5, COSINE_STATIONS, COSINE_WATERLINES, x,
+		                              z,       y,    NULL };
 	batten_context *context = NULL;
 	batten_hull *hull = NULL;
 	batten_replacement *list = NULL;
 	size_t count = 0;
 	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
 	assert_int_equal(batten_hull_create(context, &table, &hull), BATTEN_OK);
-	assert_int_equal(gross_errors_replace(hull, &list, &count), BATTEN_OK);
+	assert_int_equal(gross_errors_replace(hull, NULL, &list, &count), BATTEN_OK);
 	assert_int_equal(count, 0);
 	batten_release(context, list);
 	batten_hull_destroy(hull);
@@ -347,6 +377,7 @@ int main(void)
 		cmocka_unit_test(test_noisy_wigley_comes_closer),
 		cmocka_unit_test(test_smooth_hull_stays),
 		cmocka_unit_test(test_planted_error_is_found),
+		cmocka_unit_test(test_lost_offset_is_found),
 		cmocka_unit_test(test_chine_is_kept),
 		cmocka_unit_test(test_locks_and_bounds_hold),
 		cmocka_unit_test(test_impossible_requests),

@@ -27,7 +27,8 @@ static batten_search_result run(const search_case *c, const batten_search_proble
 {
 	batten_search_result result;
 	assert_int_equal(
-		batten_search_batch(c->context, &c->grid, 1, problem, options, y, &result, NULL), BATTEN_OK);
+		batten_search_batch(c->context, &c->grid, 1, problem, options, y, &result, NULL),
+		BATTEN_OK);
 	return result;
 }
 
@@ -119,15 +120,22 @@ static void test_plane_sided_hull_stays(void **state)
 	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
 	const batten_search_options options = reference_options();
 	const batten_grid grid = { PLANE_STATIONS, PLANE_WATERLINES, x, z };
-	const double weights[][2] = { { 1.0, 0.0 }, { 1.0, 1e-3 }, { 1.0, 1.0 }, { 1.0, 1e4 }, { 1e4, 1.0 } };
+	const double weights[][2] = {
+		{ 1.0, 0.0 }, { 1.0, 1e-3 }, { 1.0, 1.0 }, { 1.0, 1e4 }, { 1e4, 1.0 }
+	};
 	for (size_t w = 0; w < sizeof weights / sizeof weights[0]; w++) {
-		const batten_search_problem problem = { .nodes = nodes, .start_m = y, .target_m = y,
-			                                    .lower_m = lower, .upper_m = upper,
-			                                    .w1 = weights[w][0], .w2 = weights[w][1],
+		const batten_search_problem problem = { .nodes = nodes,
+			                                    .start_m = y,
+			                                    .target_m = y,
+			                                    .lower_m = lower,
+			                                    .upper_m = upper,
+			                                    .w1 = weights[w][0],
+			                                    .w2 = weights[w][1],
 			                                    .half_beam_m = 2.0 };
 		batten_search_result result;
-		assert_int_equal(batten_search_batch(context, &grid, 1, &problem, &options, end, &result, NULL),
-		                 BATTEN_OK);
+		assert_int_equal(
+			batten_search_batch(context, &grid, 1, &problem, &options, end, &result, NULL),
+			BATTEN_OK);
 		for (int n = 0; n < PLANE_NODES; n++)
 			assert_true(fabs(end[n] - y[n]) <= 1e-6 * 4.0);
 	}
@@ -152,13 +160,14 @@ static void test_result_does_not_depend_on_the_batch(void **state)
 	chosen.threads = 4;
 	batten_context *four = NULL;
 	assert_int_equal(batten_context_create(&chosen, &four), BATTEN_OK);
-	assert_int_equal(batten_search_batch(four, &c.grid, COUNT, problems, &options, together, results,
-	                                     NULL),
-	                 BATTEN_OK);
+	assert_int_equal(
+		batten_search_batch(four, &c.grid, COUNT, problems, &options, together, results, NULL),
+		BATTEN_OK);
 	for (int p = 0; p < COUNT; p++) {
 		const batten_search_result result = run(&c, &problems[p], &options, alone);
 		assert_memory_equal(alone, together + (size_t)p * c.nodes, c.nodes * sizeof *alone);
-		assert_true(result.iterations == results[p].iterations && result.probes == results[p].probes);
+		assert_true(result.iterations == results[p].iterations &&
+		            result.probes == results[p].probes);
 	}
 	batten_context_destroy(four);
 	free(together);
@@ -200,7 +209,8 @@ static void test_scale_law(void **state)
 	const size_t nx = c.grid.station_count;
 	const size_t nz = c.grid.waterline_count;
 	double *large[5];
-	const double *small[5] = { batten_hull_y_m(c.hull), c.lower_m, c.upper_m, c.grid.x_m, c.grid.z_m };
+	const double *small[5] = { batten_hull_y_m(c.hull), c.lower_m, c.upper_m, c.grid.x_m,
+		                       c.grid.z_m };
 	const size_t counts[5] = { c.nodes, c.nodes, c.nodes, nx, nz };
 	for (int a = 0; a < 5; a++) {
 		large[a] = room_for(counts[a]);
@@ -287,9 +297,9 @@ static void test_faulty_problems_are_refused(void **state)
 	double *alone = room_for(c.nodes);
 	batten_search_result results[COUNT];
 	const batten_search_options options = reference_options();
-	assert_int_equal(batten_search_batch(c.context, &c.grid, COUNT, problems, &options, y, results,
-	                                     NULL),
-	                 BATTEN_INCOMPLETE);
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, COUNT, problems, &options, y, results, NULL),
+		BATTEN_INCOMPLETE);
 	for (int p = 0; p < COUNT; p++) {
 		assert_int_equal(results[p].end == BATTEN_SEARCH_REFUSED, p != 1);
 		assert_int_equal(results[p].message[0] != '\0', p != 1);
@@ -312,8 +322,9 @@ static void test_ends_are_told_apart(void **state)
 	batten_search_options options = reference_options();
 	batten_search_problem problem = search_case_problem(&c, 1.0, 1e4);
 	options.iteration_limit = 2;
-	assert_int_equal(batten_search_batch(c.context, &c.grid, 1, &problem, &options, y, &result, NULL),
-	                 BATTEN_INCOMPLETE);
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 1, &problem, &options, y, &result, NULL),
+		BATTEN_INCOMPLETE);
 	assert_int_equal(result.end, BATTEN_SEARCH_LIMIT);
 	assert_int_equal(result.iterations, 2);
 	options = reference_options();
@@ -339,17 +350,35 @@ static void test_bad_arguments(void **state)
 		double x[21];
 		memcpy(x, grid.x_m, sizeof x);
 		switch (fault) {
-		case 0: grid.station_count = 2; break;
-		case 1: grid.waterline_count = 4097; break;
-		case 2: x[5] = x[4]; grid.x_m = x; break;
-		case 3: options.first_step = -1.0; break;
-		case 4: options.last_step = 1.0; break;
-		case 5: options.iteration_limit = 0; break;
-		case 6: options.lanes = 3; break;
-		default: options.device = -7; break;
+		case 0:
+			grid.station_count = 2;
+			break;
+		case 1:
+			grid.waterline_count = 4097;
+			break;
+		case 2:
+			x[5] = x[4];
+			grid.x_m = x;
+			break;
+		case 3:
+			options.first_step = -1.0;
+			break;
+		case 4:
+			options.last_step = 1.0;
+			break;
+		case 5:
+			options.iteration_limit = 0;
+			break;
+		case 6:
+			options.lanes = 3;
+			break;
+		default:
+			options.device = -7;
+			break;
 		}
-		assert_int_equal(batten_search_batch(c.context, &grid, 1, &problem, &options, y, &result, NULL),
-		                 BATTEN_USAGE);
+		assert_int_equal(
+			batten_search_batch(c.context, &grid, 1, &problem, &options, y, &result, NULL),
+			BATTEN_USAGE);
 		assert_true(batten_context_error(c.context)[0] != '\0');
 	}
 	free(y);

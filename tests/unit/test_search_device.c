@@ -59,7 +59,8 @@ static batten_status run_batch(const search_case *c, int device, double *y,
 	batten_search_options_default(&options);
 	options.device = device;
 	options.iteration_limit = 3;
-	return batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options, y, results, run);
+	return batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options, y, results,
+	                           run);
 }
 
 typedef struct ends {
@@ -74,7 +75,8 @@ static ends ends_create(const search_case *c)
 		       .known_y = calloc(EQUAL_COUNT * c->nodes, sizeof(double)) };
 	assert_non_null(e.y);
 	assert_non_null(e.known_y);
-	assert_int_equal(run_batch(c, BATTEN_DEVICE_REFERENCE, e.known_y, e.known, &e.run), BATTEN_INCOMPLETE);
+	assert_int_equal(run_batch(c, BATTEN_DEVICE_REFERENCE, e.known_y, e.known, &e.run),
+	                 BATTEN_INCOMPLETE);
 	assert_string_equal(e.run.device, "reference");
 	return e;
 }

@@ -1,0 +1,98 @@
+#!/bin/sh
+# What the user holds fixed stays fixed: --max-distance, --lock, --lower, --upper, --iterations.
+# shellcheck disable=SC2086 # words without blanks are split on purpose
+. "$(dirname "$0")/lib.sh"
+without_pictures
+hull=$hulls/wigley_noisy.csv
+h=$(half_beam "$hull")
+weights="--w1 1 --w2 100"
+
+# moved FOLDER: its largest change.
+moved()
+{
+	change "$hull" "$1/faired.csv" >.change
+	read -r most rms count <.change
+	[ "$count" -eq 420 ] || fail "$1: $count offsets"
+	echo "$most"
+}
+
+# --max-distance, in percent of the half-beam and in units of length.
+for pair in 1%:0.01*h 0.25%:0.0025*h 0.5mm:0.0005 0.002m:0.002 0.01ft:0.003048 0mm:0 0%:0; do
+	distance=${pair%:*}
+	expect 0 fair "$hull" $weights --max-distance $distance --out out
+	most=$(moved out)
+	# With these weights some offset goes as far as it may.
+	holds "--max-distance $distance" \
+		"most <= (${pair#*:}) * (1 + 1e-12) && most >= (${pair#*:}) * (1 - 1e-9)" most="$most" h="$h"
+	holds "--max-distance $distance in the report" \
+		"d <= (${pair#*:}) * (1 + 1e-9) && d >= (${pair#*:}) * (1 - 1e-9)" \
+		d="$(member out/report.json method max_distance_m)" h="$h"
+done
+expect 0 fair "$hull" --max-distance 0% --out out
+same_form "$hull" out/faired.csv
+[ "$(moved out)" = 0 ] || fail 'moved though nothing may'
+
+# --lock: a station, a waterline and a point stay to the last bit, their neighbours do not.
+expect 0 fair "$hull" $weights --lock station:4.8,waterline:1,point:8@0.47368421052631576 --out out
+for x in 0.8 4.8 8; do
+	for z in 0.42105263157894735 0.47368421052631576 1; do
+		old=$(cell "$hull" $x $z)
+		new=$(cell out/faired.csv $x $z)
+		case $x,$z in
+		4.8,* | *,1 | 8,0.473*) holds "locked $x, $z" 'a == b' a="$old" b="$new" ;;
+		*) holds "not locked $x, $z" 'a != b' a="$old" b="$new" ;;
+		esac
+	done
+done
+[ "$(member out/report.json method lock)" = station:4.8,waterline:1,point:8@0.47368421052631576 ] ||
+	fail 'the locks are not in the report'
+
+# scaled FACTOR: the hull with every half-breadth times this.
+scaled()
+{
+	awk -F, -v OFS=, -v factor="$1" '/^[#z]/ { print; next }
+		{ for (i = 2; i <= NF; i++) if ($i != "") $i = sprintf("%.17g", $i * factor); print }' "$hull"
+}
+
+# Bounds: no offset is beyond, some are at them.
+scaled 0.999 >lower.csv
+scaled 1.0015 >upper.csv
+expect 0 fair "$hull" $weights --lower lower.csv --upper upper.csv --out out
+table_of lower.csv >.lower
+table_of out/faired.csv >.faired
+table_of upper.csv >.upper
+paste -d, .lower .faired .upper | awk -F, '
+	NR > 1 {
+		n = NF / 3
+		for (i = 2; i <= n; i++) {
+			beyond += $(n + i) < $i || $(n + i) > $(2 * n + i)
+			at += $i < $(2 * n + i) && ($(n + i) == $i || $(n + i) == $(2 * n + i))
+			cells++
+		}
+	}
+	END { print beyond + 0, at + 0, cells + 0 }' >.bounds
+read -r beyond at cells <.bounds
+holds 'bounds' 'beyond == 0 && at > 20 && cells == 420' beyond="$beyond" at="$at" cells="$cells"
+for key in lower upper; do
+	[ "$(member out/report.json method $key)" = $key.csv ] || fail "$key is not in the report"
+done
+
+# The iteration limit: exit code 1, said, and everything is written.
+expect 1 fair "$hull" --iterations 1 --out short
+says '^warning: .*iteration limit'
+[ "$(member short/report.json search status)" = 'iteration limit' ] || fail 'another status'
+[ "$(member short/report.json search iterations)" = 1 ] || fail 'not one iteration'
+expect_json short/report.json
+same_form "$hull" short/faired.csv
+expect 1 fair "$hull" --iterations 1 --quiet --json --out short
+[ -s "$talk" ] && fail 'talk in spite of --quiet'
+cmp -s "$out" short/report.json || fail '--json prints another report than it writes'
+expect_json "$out"
+
+# All weight on closeness: nothing moves. None: nothing is left to gain by moving on.
+expect 0 fair "$hull" --w1 0 --w2 1 --out out
+[ "$(moved out)" = 0 ] || fail 'moved without any weight on fairness'
+expect 0 fair "$hull" --w1 1 --w2 0 --out out
+holds 'energy' 'a < b / 10' a="$(member out/report.json after energy_bending)" \
+	b="$(member out/report.json before energy_bending)"
+finish
