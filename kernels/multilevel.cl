@@ -246,8 +246,8 @@ static inline void count_probes(progress *p, real probes)
 {
 	const real block = SPREAD(LITERAL(1048576.0));
 	p->extra_low += probes;
-	/* f32 counts whole numbers up to 2^24; at most two turns are due after one iteration's probes
-	 * on the largest grid allowed. */
+	/* f32 counts whole numbers up to 2^24, which one iteration's probes on the largest grid allowed
+	 * stay below: sixteen turns clear them. */
 	ROLLED
 	for (int turn = 0; turn < 16; turn++) {
 		const mask full = p->extra_low >= block;
@@ -290,18 +290,10 @@ static inline void evaluate_and_extrapolate(const search_state *s, mask going, i
 	}
 }
 
-/* stencils: STENCIL_SIZE a station, then a waterline. levels: SEARCH_LEVEL_SIZE numbers each, widths and
- * the first direction of each colour. centres: station and waterline of each direction.
- * arrays [group][SEARCH_ARRAY_COUNT][nodes], settings [group][SEARCH_SETTING_COUNT], outcome
- * [group][SEARCH_OUTCOME_COUNT], all of real. state: 3 * nodes of real a group. lines: a real a waterline.
- * gathered: two reals a work-item. */
-kernel void multilevel(int stations, int waterlines, int level_count, int iteration_limit,
-                       global const int *levels, global const int *centres,
-                       global const scalar *stencils, global real *arrays,
-                       global const real *settings, global real *outcome, STATE real *state,
-                       local real *lines, local real *gathered)
+/* The state of a group: its part of the arrays, and three arrays of nodes to work in. */
+static inline search_state state_of(int stations, int waterlines, global const scalar *stencils,
+                                    global const real *arrays, STATE real *room, local real *lines)
 {
-	const size_t group = get_group_id(0);
 	search_state s;
 	s.stations = stations;
 	s.waterlines = waterlines;
@@ -309,26 +301,62 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	s.nodes = (stations + 2) * (waterlines + 2);
 	s.along_x = stencils;
 	s.along_z = stencils + stations * STENCIL_SIZE;
-#if defined(STATE_IS_GLOBAL)
-	state += group * 3 * (size_t)s.nodes;
-#endif
-	s.y = state;
-	s.base = state + s.nodes;
-	s.trial = state + 2 * s.nodes;
-	arrays += group * SEARCH_ARRAY_COUNT * (size_t)s.nodes;
+	s.y = room;
+	s.base = room + s.nodes;
+	s.trial = room + 2 * s.nodes;
 	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
 	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
 	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;
 	s.bend = arrays + SEARCH_ARRAY_BEND * s.nodes;
 	s.close = arrays + SEARCH_ARRAY_CLOSE * s.nodes;
 	s.lines = lines;
+	return s;
+}
+
+static inline void copy_nodes(const search_state *s, STATE real *to, const STATE real *from)
+{
+	ROLLED
+	for (int n = (int)get_local_id(0); n < s->nodes; n += (int)get_local_size(0))
+		to[n] = from[n];
+	barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+}
+
+static inline void store_outcome(global real *end, real start, const progress *p)
+{
+	if (get_local_id(0) != 0)
+		return;
+	end[SEARCH_OUTCOME_START] = start;
+	end[SEARCH_OUTCOME_END] = p->objective;
+	end[SEARCH_OUTCOME_STEP] = p->step;
+	end[SEARCH_OUTCOME_ITERATIONS] = p->iterations;
+	end[SEARCH_OUTCOME_MOVES] = p->moves;
+	end[SEARCH_OUTCOME_EXTRA_HIGH] = p->extra_high;
+	end[SEARCH_OUTCOME_EXTRA_LOW] = p->extra_low;
+}
+
+/* stencils: STENCIL_SIZE a station, then a waterline. levels: SEARCH_LEVEL_SIZE numbers each. centres:
+ * station and waterline of each direction. arrays [group][SEARCH_ARRAY_COUNT][nodes], settings
+ * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: 3 * nodes of
+ * real a group. lines: a real a waterline. gathered: two reals a work-item. */
+kernel void multilevel(int stations, int waterlines, int level_count, int iteration_limit,
+                       global const int *levels, global const int *centres,
+                       global const scalar *stencils, global real *arrays,
+                       global const real *settings, global real *outcome, STATE real *room,
+                       local real *lines, local real *gathered)
+{
+	const size_t group = get_group_id(0);
+	const size_t nodes = (size_t)(stations + 2) * (size_t)(waterlines + 2);
+#if defined(STATE_IS_GLOBAL)
+	room += group * 3 * nodes;
+#endif
+	arrays += group * SEARCH_ARRAY_COUNT * nodes;
+	settings += group * SEARCH_SETTING_COUNT;
+	const search_state s = state_of(stations, waterlines, stencils, arrays, room, lines);
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
 	const real limit = SPREAD((scalar)iteration_limit);
-	const real last_step = settings[group * SEARCH_SETTING_COUNT + SEARCH_SETTING_LAST_STEP];
-	progress p = { zero, settings[group * SEARCH_SETTING_COUNT + SEARCH_SETTING_FIRST_STEP],
-		           zero, zero,
-		           zero, zero };
+	const real last_step = settings[SEARCH_SETTING_LAST_STEP];
+	progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero };
 	real start = zero;
 	ROLLED
 	for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
@@ -340,10 +368,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 		const mask active = (p.step > last_step) & (p.iterations < limit);
 		if (turn > 0 && !ANY(active))
 			break;
-		ROLLED
-		for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
-			s.base[n] = s.y[n];
-		barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+		copy_nodes(&s, s.base, s.y);
 		real longest = zero;
 		mask going = p.iterations < limit;
 		if (turn > 0) {
@@ -367,14 +392,5 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	ROLLED
 	for (int n = (int)get_local_id(0); n < s.nodes; n += (int)get_local_size(0))
 		arrays[n] = s.y[n];
-	if (get_local_id(0) == 0) {
-		global real *end = outcome + group * SEARCH_OUTCOME_COUNT;
-		end[SEARCH_OUTCOME_START] = start;
-		end[SEARCH_OUTCOME_END] = p.objective;
-		end[SEARCH_OUTCOME_STEP] = p.step;
-		end[SEARCH_OUTCOME_ITERATIONS] = p.iterations;
-		end[SEARCH_OUTCOME_MOVES] = p.moves;
-		end[SEARCH_OUTCOME_EXTRA_HIGH] = p.extra_high;
-		end[SEARCH_OUTCOME_EXTRA_LOW] = p.extra_low;
-	}
+	store_outcome(outcome + group * SEARCH_OUTCOME_COUNT, start, &p);
 }

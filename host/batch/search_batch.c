@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORKER_LIMIT = 64 };
-
 typedef struct batch {
 	batten_context *context;
 	search_plan *plan;
@@ -24,8 +22,8 @@ typedef struct worker {
 	batch *batch;
 	search_engine *engine;
 	pthread_t thread;
+	bool started;
 	batten_status status;
-	char message[256];
 } worker;
 
 static batten_status run_on_reference(batch *b)
@@ -80,13 +78,12 @@ static void *work(void *argument)
  * share to the others. */
 static void run_workers(worker *workers, size_t count)
 {
-	bool started[WORKER_LIMIT] = { false };
 	for (size_t w = 1; w < count; w++)
-		started[w] = pthread_create(&workers[w].thread, NULL, work, &workers[w]) == 0;
+		workers[w].started = pthread_create(&workers[w].thread, NULL, work, &workers[w]) == 0;
 	if (count > 0)
 		(void)work(&workers[0]);
 	for (size_t w = 1; w < count; w++)
-		if (started[w])
+		if (workers[w].started)
 			(void)pthread_join(workers[w].thread, NULL);
 }
 
@@ -128,7 +125,7 @@ static void add_strict_devices(batch *b, worker *workers, size_t *count, batten_
 	const size_t devices = batten_device_count(b->context, &reason);
 	if (devices == 0)
 		add_warning(run, reason);
-	for (size_t i = 0; i < devices && *count < WORKER_LIMIT; i++) {
+	for (size_t i = 0; i < devices; i++) {
 		batten_search_run trial = { .strict = true };
 		const batten_status status = add_engine(b, i, workers, count, &trial);
 		if (status != BATTEN_OK) {
@@ -152,7 +149,7 @@ static void add_reference(batch *b, size_t searches, worker *workers, size_t *co
 	size_t threads = b->context->options.threads;
 	if (threads > searches)
 		threads = searches ? searches : 1;
-	for (size_t t = 0; t < threads && *count < WORKER_LIMIT; t++) {
+	for (size_t t = 0; t < threads; t++) {
 		workers[*count] = (worker){ .batch = b };
 		++*count;
 	}
@@ -179,7 +176,8 @@ static batten_status finish(batch *b, worker *workers, size_t count, batten_sear
 	for (size_t w = 0; w < count; w++) {
 		if (workers[w].status == BATTEN_OK)
 			continue;
-		if (workers[w].status == BATTEN_MEMORY)
+		/* A device short of memory is a device that failed; the host short of it is the end. */
+		if (workers[w].status == BATTEN_MEMORY && !workers[w].engine)
 			return BATTEN_MEMORY;
 		first = workers[w].status;
 	}
@@ -243,16 +241,9 @@ static batten_status count_probes(const batch *b, size_t count)
 	return BATTEN_OK;
 }
 
-static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
+static batten_status run_on_workers(batch *b, worker *workers, size_t count, batten_search_run *run)
 {
-	worker workers[WORKER_LIMIT] = { 0 };
-	size_t *order = batten_allocate(b->context, count, sizeof *order);
-	if (!order)
-		return BATTEN_MEMORY;
-	batten_status status = search_queue_create(b->context, order, order_problems(b, count, order),
-	                                           &b->queue);
-	if (status == BATTEN_OK)
-		status = choose_workers(b, workers, &b->worker_count, run);
+	batten_status status = choose_workers(b, workers, &b->worker_count, run);
 	if (status == BATTEN_OK) {
 		const double begun = batten_wall_seconds();
 		run_workers(workers, b->worker_count);
@@ -261,8 +252,26 @@ static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
 	}
 	if (status == BATTEN_OK)
 		status = count_probes(b, count);
+	return status;
+}
+
+static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
+{
+	/* As many as there may be: one a device, or one a thread of the C path. */
+	const bool on_devices = b->plan->options.device != BATTEN_DEVICE_REFERENCE;
+	const size_t devices = on_devices ? batten_device_count(b->context, NULL) : 0;
+	const size_t threads = b->context->options.threads;
+	const size_t most = devices > threads ? devices : threads;
+	worker *workers = batten_allocate(b->context, most, sizeof *workers);
+	size_t *order = batten_allocate(b->context, count, sizeof *order);
+	batten_status status = workers && order ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK)
+		status = search_queue_create(b->context, order, order_problems(b, count, order), &b->queue);
+	if (status == BATTEN_OK)
+		status = run_on_workers(b, workers, count, run);
 	search_queue_release(b->context, &b->queue);
 	batten_release(b->context, order);
+	batten_release(b->context, workers);
 	return status;
 }
 

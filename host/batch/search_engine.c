@@ -117,8 +117,8 @@ static batten_status build(search_engine *engine)
 		                   shape->device, device->name, device_kernel_group_limit(engine->kernel),
 		                   shape->work_group);
 	if (status != BATTEN_OK)
-		return batten_fail(engine->context, status, "device %zu (%s): %s", shape->device,
-		                   device->name, device_session_error(engine->session));
+		return batten_fail(engine->context, status, "device %zu: %s", shape->device,
+		                   device_session_error(engine->session));
 	return BATTEN_OK;
 }
 
@@ -200,6 +200,9 @@ size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 	size_t limit = BLOCK_BYTES;
 	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
 		limit = (size_t)device->max_allocation_bytes;
+	const size_t most = engine->context->options.max_memory;
+	if (most > 0 && limit > most)
+		limit = most;
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;
@@ -320,8 +323,7 @@ batten_status search_engine_run(search_engine *engine, const search_plan *plan,
 		if (status == BATTEN_OK)
 			status = block_launch(engine, plan, &b);
 		if (status != BATTEN_OK)
-			status = batten_fail(engine->context, status, "device %zu (%s): %s",
-			                     engine->shape.device, search_engine_device(engine)->name,
+			status = batten_fail(engine->context, status, "device %zu: %s", engine->shape.device,
 			                     device_session_error(engine->session));
 	}
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)

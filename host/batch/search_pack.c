@@ -1,5 +1,7 @@
 #include "batch/search_pack.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define BATTEN_DIALECT_C
@@ -106,6 +108,20 @@ static batten_search_end end_of(double moves, double step, double last_step)
 	return moves == 0.0 ? BATTEN_SEARCH_STATIONARY : BATTEN_SEARCH_CONVERGED;
 }
 
+/* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */
+static double end_of_node(const search_plan *plan, const batten_search_problem *problem,
+                          size_t node, double found)
+{
+	if (!on_hull(problem, node))
+		return problem->start_m[node];
+	const double lower = problem->lower_m[node];
+	const double upper = problem->upper_m[node];
+	const double start = clamp(problem->start_m[node], lower, upper);
+	if (plan->options.precision == BATTEN_F32 && found == (double)(float)start)
+		return start;
+	return clamp(found, lower, upper);
+}
+
 void search_unpack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
                    size_t lanes, const void *y, const void *outcome, double *y_m,
                    batten_search_result *result)
@@ -114,13 +130,7 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 		for (size_t i = 0; i < plan->station_count; i++) {
 			const size_t node = k * plan->station_count + i;
 			const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
-			const bool moves = on_hull(problem, node) &&
-			                   problem->lower_m[node] < problem->upper_m[node];
-			/* A fixed node comes back as it went in, not rounded to f32. */
-			y_m[node] = !on_hull(problem, node) ? problem->start_m[node]
-			            : moves ? clamp(get(plan, y, place * lanes + lane), problem->lower_m[node],
-			                            problem->upper_m[node])
-			                    : problem->lower_m[node];
+			y_m[node] = end_of_node(plan, problem, node, get(plan, y, place * lanes + lane));
 		}
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
@@ -128,12 +138,17 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 	const double last_step = plan->options.last_step * problem->half_beam_m;
 	const double compared = plan->options.precision == BATTEN_F64 ? last_step
 	                                                              : (double)(float)last_step;
-	result->end = end_of(values[SEARCH_OUTCOME_MOVES], values[SEARCH_OUTCOME_STEP], compared);
-	result->iterations = (unsigned)values[SEARCH_OUTCOME_ITERATIONS];
-	result->probes = ((uint64_t)values[SEARCH_OUTCOME_EXTRA_HIGH] << 20) +
-	                 (uint64_t)values[SEARCH_OUTCOME_EXTRA_LOW];
-	result->objective_start = values[SEARCH_OUTCOME_START];
-	result->objective_end = values[SEARCH_OUTCOME_END];
-	result->last_step_m = values[SEARCH_OUTCOME_STEP];
-	result->message[0] = '\0';
+	*result = (batten_search_result){
+		.end = end_of(values[SEARCH_OUTCOME_MOVES], values[SEARCH_OUTCOME_STEP], compared),
+		.iterations = (unsigned)values[SEARCH_OUTCOME_ITERATIONS],
+		.probes = ((uint64_t)values[SEARCH_OUTCOME_EXTRA_HIGH] << 20) +
+		          (uint64_t)values[SEARCH_OUTCOME_EXTRA_LOW],
+		.objective_start = values[SEARCH_OUTCOME_START],
+		.objective_end = values[SEARCH_OUTCOME_END],
+		.last_step_m = values[SEARCH_OUTCOME_STEP],
+	};
+	if (!isfinite(result->objective_start) || !isfinite(result->objective_end)) {
+		result->end = BATTEN_SEARCH_REFUSED;
+		(void)snprintf(result->message, sizeof result->message, "the objective is not finite");
+	}
 }

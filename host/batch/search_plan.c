@@ -69,19 +69,24 @@ static int hat_width(double wanted, size_t count)
 }
 
 /* Hats grow in physical width, not in nodes: the energy couples neighbours strongly only along the
- * finer direction, and widening the other with it converges several times slower. */
+ * finer direction, and widening the other with it converges several times slower. They grow until
+ * both directions are spanned. */
 static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
 {
 	const double finest = fmin(spacing_x, spacing_z) * (1.0 + 1e-9);
-	for (int l = 0; l < SEARCH_LEVEL_LIMIT; l++) {
-		const double width = ldexp(finest, l);
-		const search_level level = { .width_x = hat_width(width / spacing_x, plan->station_count),
-			                         .width_z = hat_width(width / spacing_z,
-			                                              plan->waterline_count) };
-		const search_level *before = l > 0 ? &plan->levels[l - 1] : NULL;
-		if (before && level.width_x == before->width_x && level.width_z == before->width_z)
+	const double span_x = spacing_x * 0.5 * (double)(plan->station_count - 1);
+	const double span_z = spacing_z * 0.5 * (double)(plan->waterline_count - 1);
+	for (double width = finest; plan->level_count < SEARCH_LEVEL_LIMIT; width *= 2.0) {
+		const search_level level = {
+			.width_x = hat_width(width / spacing_x, plan->station_count),
+			.width_z = hat_width(width / spacing_z, plan->waterline_count),
+		};
+		const search_level *before = plan->levels + plan->level_count - 1;
+		if (plan->level_count == 0 || level.width_x != before->width_x ||
+		    level.width_z != before->width_z)
+			plan->levels[plan->level_count++] = level;
+		if (width >= span_x && width >= span_z)
 			break;
-		plan->levels[plan->level_count++] = level;
 	}
 }
 
@@ -201,11 +206,15 @@ static batten_status check_options(batten_context *context, const batten_search_
 		return batten_fail(context, BATTEN_USAGE, "search options of another version of batten");
 	if (chosen->last_step == 0.0)
 		chosen->last_step = chosen->precision == BATTEN_F64 ? 2e-7 : 2e-6;
-	if (!(chosen->first_step > 0.0) || !(chosen->last_step > 0.0) ||
-	    !(chosen->last_step <= chosen->first_step) || !isfinite(chosen->first_step))
-		return batten_fail(context, BATTEN_USAGE,
-		                   "search steps %g to %g of the half-beam: 0 < last <= first is expected",
-		                   chosen->first_step, chosen->last_step);
+	const bool shrinks = chosen->precision == BATTEN_F64
+	                         ? chosen->last_step < chosen->first_step
+	                         : (float)chosen->last_step < (float)chosen->first_step;
+	if (!(chosen->last_step >= 1e-30) || !shrinks || !(chosen->first_step <= 1e30))
+		return batten_fail(
+			context, BATTEN_USAGE,
+			"search steps %g to %g of the half-beam: 1e-30 <= last < first <= 1e30 is "
+			"expected",
+			chosen->first_step, chosen->last_step);
 	if (chosen->iteration_limit == 0 || chosen->iteration_limit > 1000000)
 		return batten_fail(context, BATTEN_USAGE, "iteration limit %u: 1 to 1000000 is expected",
 		                   chosen->iteration_limit);
@@ -288,13 +297,26 @@ void search_plan_destroy(search_plan *plan)
 	batten_release(context, plan);
 }
 
+/* Whether a number keeps its worth in the plan's precision, its fourth power with it. */
+static bool is_length(const search_plan *plan, double length)
+{
+	return plan->options.precision == BATTEN_F64 ? length >= 1e-60 && length <= 1e60
+	                                             : length >= 1e-7 && length <= 1e7;
+}
+
+static bool is_weight(const search_plan *plan, double weight)
+{
+	const double most = plan->options.precision == BATTEN_F64 ? WEIGHT_LIMIT : 1e20;
+	return weight == 0.0 || (weight >= 1.0 / most && weight <= most);
+}
+
 const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem)
 {
-	if (!(problem->w1 >= 0.0) || !(problem->w2 >= 0.0) || problem->w1 + problem->w2 == 0.0 ||
-	    problem->w1 > WEIGHT_LIMIT || problem->w2 > WEIGHT_LIMIT)
-		return "the weights must be from 0 to 1e100 and not both 0";
-	if (!isfinite(problem->half_beam_m) || problem->half_beam_m <= 0.0)
-		return "the half-beam must be positive";
+	if (!is_weight(plan, problem->w1) || !is_weight(plan, problem->w2) ||
+	    problem->w1 + problem->w2 == 0.0)
+		return "weights: 0 or 1e-100 to 1e100 (1e-20 to 1e20 in f32), not both 0";
+	if (!is_length(plan, problem->half_beam_m))
+		return "half-beam: 1e-60 to 1e60 m (1e-7 to 1e7 m in f32) is expected";
 	const size_t nodes = plan->station_count * plan->waterline_count;
 	for (size_t n = 0; n < nodes; n++) {
 		if (problem->nodes && problem->nodes[n] == BATTEN_NODE_OUTSIDE)
@@ -304,8 +326,9 @@ const char *search_problem_fault(const search_plan *plan, const batten_search_pr
 		if (!isfinite(problem->lower_m[n]) || !isfinite(problem->upper_m[n]) ||
 		    problem->lower_m[n] > problem->upper_m[n])
 			return "a lower bound is above its upper bound or not finite";
-		if (problem->closeness_weight && !(problem->closeness_weight[n] >= 0.0))
-			return "a closeness weight is negative";
+		if (problem->closeness_weight &&
+		    !(problem->closeness_weight[n] >= 0.0 && isfinite(problem->closeness_weight[n])))
+			return "a closeness weight is negative or not finite";
 	}
 	return NULL;
 }

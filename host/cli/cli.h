@@ -55,8 +55,8 @@ batten_status cli_context_create(const char *command, const cli_common *common,
 /* Prints the context's last error, preceded by the subcommand's name; returns status. */
 batten_status cli_failure(const char *command, const batten_context *context, batten_status status);
 
-/* A number in the shortest decimal that reads back. */
-int cli_number_print(FILE *stream, double value);
+/* Makes one line of a text: control characters, as a path may have them, become '?'. */
+void cli_clean(char *line);
 
 batten_status cli_fair(int argc, char **argv);
 batten_status cli_measure(int argc, char **argv);

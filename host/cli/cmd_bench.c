@@ -70,8 +70,12 @@ static batten_status run_all(bench_settings *settings, const char *const *names,
 		if (!is_wanted(entry->name, names, count))
 			continue;
 		const batten_status status = entry->run(settings);
+		if (status == BATTEN_INTERNAL)
+			(void)fprintf(stderr, "batten bench: %s: the two sides do not agree\n", entry->name);
+		else if (status != BATTEN_OK)
+			(void)cli_failure("bench", settings->context, status);
 		if (status != BATTEN_OK)
-			return cli_failure("bench", settings->context, status);
+			return status;
 	}
 	return BATTEN_OK;
 }

@@ -16,7 +16,10 @@ static const char *const file_names[FILE_COUNT] = { "faired.csv", "lines.svg", "
 
 static batten_status complain(const char *path, const char *what)
 {
-	(void)fprintf(stderr, "batten fair: %s: %s: %s\n", path, what, strerror(errno));
+	char line[PATH_MAX + 256];
+	(void)snprintf(line, sizeof line, "%s: %s: %s", path, what, strerror(errno));
+	cli_clean(line);
+	(void)fprintf(stderr, "batten fair: %s\n", line);
 	return BATTEN_IO;
 }
 
@@ -178,17 +181,16 @@ batten_status fair_files_write(fair_job *job, const char *folder)
 	batten_status status = make_folders(folder, &made);
 	if (status != BATTEN_OK)
 		return status;
-	/* An interrupt waits the second this takes, so that nothing half-made stays behind. */
-	sigset_t waiting;
-	sigset_t before;
-	(void)sigemptyset(&waiting);
-	(void)sigaddset(&waiting, SIGINT);
-	(void)sigaddset(&waiting, SIGTERM);
-	(void)sigaddset(&waiting, SIGHUP);
-	(void)sigprocmask(SIG_BLOCK, &waiting, &before);
+	/* An interrupt in the second this takes would leave half of it behind, and save nothing. */
+	const int signals[] = { SIGINT, SIGTERM, SIGHUP };
+	struct sigaction before[sizeof signals / sizeof signals[0]];
+	const struct sigaction ignore = { .sa_handler = SIG_IGN };
+	for (size_t s = 0; s < sizeof signals / sizeof signals[0]; s++)
+		(void)sigaction(signals[s], &ignore, &before[s]);
 	status = make_and_move(job, folder);
 	if (status != BATTEN_OK && made)
 		(void)rmdir(folder);
-	(void)sigprocmask(SIG_SETMASK, &before, NULL);
+	for (size_t s = 0; s < sizeof signals / sizeof signals[0]; s++)
+		(void)sigaction(signals[s], &before[s], NULL);
 	return status;
 }

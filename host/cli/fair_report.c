@@ -20,15 +20,19 @@ static void set(json_t *object, const char *name, json_t *value)
 	(void)json_object_set_new(object, name, value);
 }
 
+/* A path, or null; not every path is UTF-8. */
+static json_t *path_json(const char *path)
+{
+	json_t *text = path ? json_string(path) : json_null();
+	return text ? text : json_string("(not UTF-8)");
+}
+
 static json_t *command_line(const fair_request *request)
 {
 	json_t *words = json_array();
 	(void)json_array_append_new(words, json_string("batten"));
-	for (int i = 0; i < request->argc; i++) {
-		/* Not every path is UTF-8. */
-		json_t *word = json_string(request->argv[i]);
-		(void)json_array_append_new(words, word ? word : json_string("(not UTF-8)"));
-	}
+	for (int i = 0; i < request->argc; i++)
+		(void)json_array_append_new(words, path_json(request->argv[i]));
 	return words;
 }
 
@@ -131,9 +135,9 @@ static json_t *method_json(const fair_job *job)
 	set(object, "noise_m", number(facts.noise_m));
 	set(object, "max_distance_m", number(facts.max_distance_m));
 	set(object, "upper_half_beams", number(1.2));
-	set(object, "lock", request->lock ? json_string(request->lock) : json_null());
-	set(object, "lower", request->lower_path ? json_string(request->lower_path) : json_null());
-	set(object, "upper", request->upper_path ? json_string(request->upper_path) : json_null());
+	set(object, "lock", path_json(request->lock));
+	set(object, "lower", path_json(request->lower_path));
+	set(object, "upper", path_json(request->upper_path));
 	set(object, "seed", count(request->seed));
 	set(object, "device_asked_for", device_json(request->device));
 	set(object, "iteration_limit", count(job->options.search.iteration_limit));

@@ -64,9 +64,12 @@ int main(int argc, char **argv)
 	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
 		if (strcmp(argv[1], subcommands[i].name) == 0)
 			return finish(subcommands[i].run(argc - 1, argv + 1));
+	char found[128];
+	(void)snprintf(found, sizeof found, "%s", argv[1]);
+	cli_clean(found);
 	(void)fprintf(
 		stderr,
 		"batten: found '%s', a command was expected: fair, measure, devices, selftest, bench\n",
-		argv[1]);
+		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

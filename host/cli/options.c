@@ -11,32 +11,27 @@ enum { OPTION_LIMIT = 48, HELP_WIDTH = 34 };
 
 batten_status cli_usage(const char *command, const char *format, ...)
 {
+	char line[1024];
 	va_list arguments;
 	va_start(arguments, format);
-	(void)fprintf(stderr, "batten %s: ", command);
-	(void)vfprintf(stderr, format, arguments);
-	(void)fprintf(stderr, " (batten %s --help)\n", command);
+	(void)vsnprintf(line, sizeof line, format, arguments);
 	va_end(arguments);
+	cli_clean(line);
+	(void)fprintf(stderr, "batten %s: %s (batten %s --help)\n", command, line, command);
 	return BATTEN_USAGE;
+}
+
+void cli_clean(char *line)
+{
+	for (; *line; line++)
+		if ((unsigned char)*line < 0x20 || *line == 0x7f)
+			*line = '?';
 }
 
 batten_status cli_failure(const char *command, const batten_context *context, batten_status status)
 {
 	(void)fprintf(stderr, "batten %s: %s\n", command, batten_context_error(context));
 	return status;
-}
-
-int cli_number_print(FILE *stream, double value)
-{
-	if (isnan(value))
-		return fputs("-", stream);
-	char text[32];
-	for (int digits = 15; digits <= 17; digits++) {
-		(void)snprintf(text, sizeof text, "%.*g", digits, value);
-		if (strtod(text, NULL) == value)
-			break;
-	}
-	return fputs(text, stream);
 }
 
 static void talk(batten_log_level level, const char *line, void *user)
@@ -182,7 +177,7 @@ static size_t join(const cli_option *options, cli_common *common, cli_option *al
 		  "CPU threads (default: the affinity mask, or SLURM_CPUS_PER_TASK)" },
 		{ "max-memory", CLI_SIZE, &common->max_memory, "SIZE",
 		  "refuse allocations above, e.g. 4G" },
-		{ "json", CLI_FLAG, &common->json, NULL, "one JSON object on standard output" },
+		{ "json", CLI_FLAG, &common->json, NULL, "JSON on standard output" },
 		{ "quiet", CLI_FLAG, &common->quiet, NULL, "no talk on standard error" },
 	};
 	size_t count = 0;

@@ -172,6 +172,10 @@ batten_status batten_fail(batten_context *context, batten_status status, const c
 	va_start(arguments, format);
 	(void)vsnprintf(line, sizeof line, format, arguments);
 	va_end(arguments);
+	/* One line, whatever a file or a path contains. */
+	for (char *c = line; *c; c++)
+		if ((unsigned char)*c < 0x20 || *c == 0x7f)
+			*c = '?';
 	(void)pthread_mutex_lock(&context->error_lock);
 	memcpy(context->error, line, sizeof line);
 	(void)pthread_mutex_unlock(&context->error_lock);

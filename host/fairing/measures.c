@@ -227,7 +227,8 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 	batten_closeness made = { 0 };
 	double squares = 0, counted = 0;
 	for (size_t i = 0; i < hull_node_count(hull); i++) {
-		if (hull->nodes[i] == BATTEN_NODE_OUTSIDE)
+		/* Neither outside, nor a '?': what fills it is no offset that could move. */
+		if (hull->nodes[i] != BATTEN_NODE_GIVEN)
 			continue;
 		double change = hull->y_m[i] - reference->y_m[i];
 		made.closeness_m4 += change * change *
@@ -236,7 +237,7 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 		                     half_sum_spacing(hull->z_m, hull->waterline_count,
 		                                      i / hull->station_count);
 		made.cn_max_m = fmax(made.cn_max_m, fabs(change));
-		if (hull->nodes[i] == BATTEN_NODE_GIVEN && (hull->y_m[i] > 0 || reference->y_m[i] > 0)) {
+		if (hull->y_m[i] > 0 || reference->y_m[i] > 0) {
 			squares += change * change;
 			counted += 1;
 		}

@@ -90,7 +90,8 @@ typedef struct batten_context_options {
 	/* Threads of the plain C path and of CPU devices; 0 takes the affinity mask of the process, or
 	 * SLURM_CPUS_PER_TASK where that is set. Range 0..4096. */
 	unsigned threads;
-	/* Most bytes one batch may take on the host; 0 sets no limit. */
+	/* Most bytes of one allocation on the host; larger ones fail, batches are cut to fit. 0 sets no
+	 * limit. */
 	size_t max_memory;
 	/* Folder for compiled kernels; NULL takes $XDG_CACHE_HOME/batten or ~/.cache/batten. When it
 	 * cannot be written, a private folder under $TMPDIR is used. */
@@ -261,7 +262,8 @@ BATTEN_API batten_status batten_hull_measure(batten_context *context, const batt
                                              const batten_measure_options *options,
                                              batten_measures *out);
 
-/* How one hull differs from the one it was faired from, both on the same table. */
+/* How one hull differs from the one it was faired from, both on the same table; '?' cells do not
+ * count. */
 typedef struct batten_closeness {
 	double cn_pct;       /* 100 max |y - y0| / h, h of the reference */
 	double cn_max_m;     /* max |y - y0| */
@@ -363,7 +365,7 @@ typedef struct batten_search_problem {
 	const double *target_m;
 	const double *lower_m, *upper_m; /* lower <= upper, finite */
 	const double *closeness_weight;  /* factor of each node's closeness term, >= 0; NULL: 1 */
-	double w1, w2;                   /* dimensionless, 0 .. 1e100, not both 0 */
+	double w1, w2;                   /* dimensionless, 0 or 1e-100 .. 1e100, not both 0 */
 	double half_beam_m;              /* h, > 0 */
 } batten_search_problem;
 
@@ -424,7 +426,7 @@ typedef struct batten_replacement {
 	double x_m, z_m, old_m, new_m;
 } batten_replacement;
 
-/* A point, a line or both where the search may not move anything. */
+/* A point or a line where fairing may not change any offset; a '?' cell has none. */
 typedef enum batten_lock_kind {
 	BATTEN_LOCK_STATION,   /* all of the station at x_m */
 	BATTEN_LOCK_WATERLINE, /* all of the waterline at z_m */
