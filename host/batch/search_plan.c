@@ -76,7 +76,8 @@ static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
 	const double finest = fmin(spacing_x, spacing_z) * (1.0 + 1e-9);
 	const double span_x = spacing_x * 0.5 * (double)(plan->station_count - 1);
 	const double span_z = spacing_z * 0.5 * (double)(plan->waterline_count - 1);
-	for (double width = finest; plan->level_count < SEARCH_LEVEL_LIMIT; width *= 2.0) {
+	for (int doublings = 0; plan->level_count < SEARCH_LEVEL_LIMIT; doublings++) {
+		const double width = ldexp(finest, doublings);
 		const search_level level = {
 			.width_x = hat_width(width / spacing_x, plan->station_count),
 			.width_z = hat_width(width / spacing_z, plan->waterline_count),
