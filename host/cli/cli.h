@@ -60,6 +60,7 @@ int cli_number_print(FILE *stream, double value);
 
 batten_status cli_fair(int argc, char **argv);
 batten_status cli_measure(int argc, char **argv);
+batten_status cli_surface(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);
 batten_status cli_bench(int argc, char **argv);

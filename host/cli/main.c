@@ -12,6 +12,7 @@ typedef struct subcommand {
 static const subcommand subcommands[] = {
 	{ "fair", cli_fair, "fair a hull: faired offsets, report, pictures" },
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
+	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
 	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
 	{ "bench", cli_bench, "time the engine against a named reference" },
@@ -58,7 +59,7 @@ int main(int argc, char **argv)
 	for (size_t i = 0; i < sizeof subcommands / sizeof subcommands[0]; i++)
 		if (strcmp(argv[1], subcommands[i].name) == 0)
 			return finish(subcommands[i].run(argc - 1, argv + 1));
-	(void)fprintf(stderr, "batten: found '%s', a command was expected: fair, measure, devices, selftest, bench\n",
+	(void)fprintf(stderr, "batten: found '%s', a command was expected: fair, measure, surface, devices, selftest, bench\n",
 	              argv[1]);
 	return batten_status_exit_code(BATTEN_USAGE);
 }
