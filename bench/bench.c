@@ -7,6 +7,11 @@
 const bench_entry bench_entries[] = {
 	{ "search.multilevel", "whole pattern searches, OpenCL against the plain C path",
 	  bench_search_multilevel },
+	{ "surface.curvature_grid",
+	  "K and H of B-spline surfaces on a grid, OpenCL against the plain C path",
+	  bench_surface_curvature_grid },
+	{ "surface.energy", "fairness integrals of B-spline surfaces, OpenCL against the plain C path",
+	  bench_surface_energy },
 	{ NULL, NULL, NULL },
 };
 
@@ -34,7 +39,7 @@ static int compare(const void *a, const void *b)
 	return (left > right) - (left < right);
 }
 
-static double median(const double *values)
+double bench_median(const double values[BENCH_PAIRS])
 {
 	double sorted[BENCH_PAIRS];
 	memcpy(sorted, values, sizeof sorted);
@@ -48,11 +53,19 @@ void bench_pairs_judge(const bench_pairs *pairs, double scale, bench_row *row)
 	for (int p = 0; p < BENCH_PAIRS; p++)
 		ratios[p] = pairs->reference[p] / pairs->value[p];
 	qsort(ratios, BENCH_PAIRS, sizeof *ratios, compare);
-	row->value = scale * median(pairs->value);
-	row->reference_value = scale * median(pairs->reference);
+	row->value = scale * bench_median(pairs->value);
+	row->reference_value = scale * bench_median(pairs->reference);
 	row->ratio = ratios[BENCH_PAIRS / 2];
 	/* The median lies between the least and the greatest of seven with 98.4 %, between the second
 	 * and the sixth with 87.5 %: the wider interval is the one that holds 95 %. */
 	row->ratio_low = ratios[0];
 	row->ratio_high = ratios[BENCH_PAIRS - 1];
+}
+
+bool bench_is_cpu(const bench_settings *settings)
+{
+	batten_device device;
+	const size_t index = settings->device >= 0 ? (size_t)settings->device : 0;
+	return batten_device_count(settings->context, NULL) == 0 ||
+	       batten_device_describe(settings->context, index, &device) != BATTEN_OK || device.is_cpu;
 }

@@ -12,6 +12,8 @@ typedef struct bench_row {
 	const char *unit, *reference;
 	double value, reference_value;
 	double ratio, ratio_low, ratio_high;
+	double
+		percent_of_peak; /* of one core's multiply-adds, measured in the same run; 0: not known */
 } bench_row;
 
 typedef struct bench_settings {
@@ -31,6 +33,8 @@ typedef struct bench_entry {
 extern const bench_entry bench_entries[];
 
 batten_status bench_search_multilevel(const bench_settings *settings);
+batten_status bench_surface_curvature_grid(const bench_settings *settings);
+batten_status bench_surface_energy(const bench_settings *settings);
 
 /* ---- pairs ---- */
 enum { BENCH_PAIRS = 7 };
@@ -40,8 +44,17 @@ typedef struct bench_pairs {
 	double value[BENCH_PAIRS], reference[BENCH_PAIRS];
 } bench_pairs;
 
+double bench_median(const double values[BENCH_PAIRS]);
+
 /* Fills value, reference_value, ratio and its interval from pairs of seconds times scale. */
 void bench_pairs_judge(const bench_pairs *pairs, double scale, bench_row *row);
+
+/* Whether times are those of processors, in CPU seconds, or of another device, in wall seconds. */
+bool bench_is_cpu(const bench_settings *settings);
+
+/* Floating-point operations a second of one core, multiply-adds in its widest vectors counted as two;
+ * 0 where they are not known to be had. Takes milliseconds: measure it beside what it judges. */
+double bench_peak(batten_precision precision);
 
 /* CPU seconds of the whole process; wall seconds. */
 double bench_cpu_seconds(void);

@@ -81,14 +81,6 @@ static batten_status timed(const bench_settings *settings, const workload *w, in
 	return status;
 }
 
-static bool is_cpu(const bench_settings *settings)
-{
-	batten_device device;
-	const size_t index = settings->device >= 0 ? (size_t)settings->device : 0;
-	return batten_device_count(settings->context, NULL) == 0 ||
-	       batten_device_describe(settings->context, index, &device) != BATTEN_OK || device.is_cpu;
-}
-
 static batten_status run_case(const bench_settings *settings, double raw_w2,
                               batten_precision precision)
 {
@@ -101,7 +93,7 @@ static batten_status run_case(const bench_settings *settings, double raw_w2,
 		workload_release(&w);
 		return BATTEN_MEMORY;
 	}
-	const bool wall = !is_cpu(settings);
+	const bool wall = !bench_is_cpu(settings);
 	double seconds = 0.0;
 	/* Warm-up, and the proof that both do the same. */
 	batten_status status = timed(settings, &w, settings->device, precision, w.y, w.results, &run,

@@ -8,23 +8,13 @@
 #include <string.h>
 
 struct search_engine {
-	batten_context *context;
+	batch_engine base; /* first: the context knows its engines by it */
 	search_shape shape;
-	device_session *session;
-	device_program *program;
-	device_kernel *kernel;
-	batten_selftest test;
-	search_engine *next;
 };
 
 /* Most bytes of packed searches in one launch: large enough to hide a launch, small enough that a
  * batch of any size runs in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20, BLOCK_ROUNDS = 8 };
-
-static size_t bytes_of(batten_precision precision)
-{
-	return precision == BATTEN_F64 ? sizeof(double) : sizeof(float);
-}
 
 search_shape search_shape_choose(const search_plan *plan, size_t index, const batten_device *device)
 {
@@ -32,175 +22,72 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 		                   .precision = plan->options.precision,
 		                   .lanes = plan->options.lanes,
 		                   .work_group = plan->options.work_group };
-	/* A CPU runs a work-item at a time: lanes fill its vector registers. A GPU has no vector
-	 * registers: its work-items share one search. */
-	if (shape.lanes == 0)
-		shape.lanes = !device->is_cpu ? 1 : shape.precision == BATTEN_F64 ? 8 : 16;
-	if (shape.work_group == 0)
-		shape.work_group = device->is_cpu ? 1 : 64;
-	if (device->max_work_group > 0 && shape.work_group > device->max_work_group)
-		shape.work_group = device->max_work_group;
-	const size_t lane_bytes = shape.lanes * bytes_of(shape.precision);
+	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
+	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
 	const size_t state = (3 * plan->node_count + plan->waterline_count + 2 * shape.work_group) *
 	                     lane_bytes;
 	shape.global_state = state > device->local_memory_bytes;
 	return shape;
 }
 
-static bool same_shape(const search_shape *a, const search_shape *b)
+batch_engine *search_engine_base(search_engine *e)
 {
-	return a->device == b->device && a->precision == b->precision && a->lanes == b->lanes &&
-	       a->work_group == b->work_group && a->global_state == b->global_state;
+	return &e->base;
 }
 
-static void engine_destroy(search_engine *engine)
+const search_shape *search_engine_shape(const search_engine *e)
 {
-	if (!engine)
-		return;
-	device_kernel_destroy(engine->kernel);
-	device_program_destroy(engine->program);
-	device_session_close(engine->session);
-	batten_release(engine->context, engine);
+	return &e->shape;
 }
 
-void search_engines_destroy(batten_context *context, search_engine *first)
+bool search_engine_is_strict(const search_engine *e)
 {
-	(void)context;
-	while (first) {
-		search_engine *next = first->next;
-		engine_destroy(first);
-		first = next;
-	}
-}
-
-batten_context *search_engine_context(const search_engine *engine)
-{
-	return engine->context;
-}
-
-const search_shape *search_engine_shape(const search_engine *engine)
-{
-	return &engine->shape;
-}
-
-const batten_device *search_engine_device(const search_engine *engine)
-{
-	return device_session_device(engine->session);
-}
-
-bool search_engine_is_strict(const search_engine *engine)
-{
-	return engine->test.result == BATTEN_SELFTEST_EQUAL;
-}
-
-static batten_status build(search_engine *engine)
-{
-	const search_shape *shape = &engine->shape;
-	const batten_device *device = device_session_device(engine->session);
-	char options[192];
-	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d -DBATTEN_LANES=%u -DSTATE=%s%s%s",
-	               shape->precision == BATTEN_F64, shape->lanes,
-	               shape->global_state ? "global" : "local",
-	               shape->global_state ? " -DSTATE_IS_GLOBAL" : "",
-	               shape->precision == BATTEN_F32 && device->has_correct_f32
-	                   ? " -cl-fp32-correctly-rounded-divide-sqrt"
-	                   : "");
-	batten_status status = device_program_build(engine->session, "multilevel",
-	                                            kernel_source_multilevel, options, &engine->program,
-	                                            NULL, &engine->test.build_s);
-	if (status == BATTEN_OK)
-		status = device_kernel_create(engine->program, "multilevel", &engine->kernel);
-	if (status == BATTEN_OK && device_kernel_group_limit(engine->kernel) < shape->work_group)
-		return batten_fail(engine->context, BATTEN_KERNEL,
-		                   "device %zu (%s): the search kernel runs with at most %zu work-items a "
-		                   "group, %u are asked for",
-		                   shape->device, device->name, device_kernel_group_limit(engine->kernel),
-		                   shape->work_group);
-	if (status != BATTEN_OK)
-		return batten_fail(engine->context, status, "device %zu: %s", shape->device,
-		                   device_session_error(engine->session));
-	return BATTEN_OK;
-}
-
-/* Known answers before the first use: wrong ones shut the device out. */
-static batten_status test(search_engine *engine)
-{
-	const batten_status status = search_selftest_run(engine, &engine->test);
-	if (status == BATTEN_MEMORY)
-		return status;
-	const batten_device *device = search_engine_device(engine);
-	if (status != BATTEN_OK) {
-		engine->test.result = BATTEN_SELFTEST_FAILED;
-		(void)snprintf(engine->test.message, sizeof engine->test.message, "%s",
-		               batten_context_error(engine->context));
-	}
-	if (engine->test.result == BATTEN_SELFTEST_FAILED)
-		return batten_fail(engine->context, BATTEN_KERNEL, "device %zu (%s): self-test failed: %s",
-		                   engine->shape.device, device->name, engine->test.message);
-	return BATTEN_OK;
-}
-
-static batten_status check_device(const search_engine *engine)
-{
-	const batten_device *device = search_engine_device(engine);
-	if (engine->shape.precision == BATTEN_F64 && !device->has_f64)
-		return batten_fail(engine->context, BATTEN_DEVICE, "device %zu (%s) has no f64",
-		                   engine->shape.device, device->name);
-	return BATTEN_OK;
+	return batch_engine_is_strict(&e->base);
 }
 
 batten_status search_engine_open(batten_context *context, const search_shape *shape,
                                  search_engine **out, batten_selftest *result)
 {
-	for (search_engine *known = context->engines; known; known = known->next)
-		if (same_shape(&known->shape, shape)) {
-			if (result)
-				*result = known->test;
-			*out = known;
-			return BATTEN_OK;
-		}
-	search_engine *engine = batten_allocate(context, 1, sizeof *engine);
-	if (!engine)
-		return BATTEN_MEMORY;
-	engine->context = context;
-	engine->shape = *shape;
-	engine->test = (batten_selftest){ .kernel = "multilevel",
-		                              .precision = shape->precision,
-		                              .result = BATTEN_SELFTEST_FAILED };
-	batten_status status = device_session_open(context, shape->device, &engine->session);
-	if (status == BATTEN_OK)
-		status = check_device(engine);
-	if (status == BATTEN_DEVICE && engine->session)
-		engine->test.result = BATTEN_SELFTEST_ABSENT;
-	if (status == BATTEN_OK)
-		status = build(engine);
-	if (status == BATTEN_OK)
-		status = test(engine);
-	if (status != BATTEN_OK && !engine->test.message[0])
-		(void)snprintf(engine->test.message, sizeof engine->test.message, "%s",
-		               batten_context_error(context));
-	if (result)
-		*result = engine->test;
-	if (status != BATTEN_OK) {
-		engine_destroy(engine);
-		return status;
+	batch_engine_recipe recipe = { .kernel = "multilevel",
+		                           .source = kernel_source_multilevel,
+		                           .device = shape->device,
+		                           .precision = shape->precision,
+		                           .lanes = shape->lanes,
+		                           .work_group = shape->work_group };
+	(void)snprintf(recipe.options, sizeof recipe.options, "%s",
+	               shape->global_state ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local");
+	search_engine *made = (search_engine *)batch_engine_find(context, &recipe);
+	batten_status status = BATTEN_OK;
+	if (!made) {
+		made = batten_allocate(context, 1, sizeof *made);
+		if (!made)
+			return BATTEN_MEMORY;
+		made->shape = *shape;
+		status = batch_engine_start(&made->base, context, &recipe);
+		if (status == BATTEN_OK)
+			status = batch_engine_judge(&made->base, search_selftest_run(made, &made->base.test));
+		if (status == BATTEN_OK)
+			batch_engine_keep(&made->base);
 	}
-	engine->next = context->engines;
-	context->engines = engine;
-	*out = engine;
-	return BATTEN_OK;
+	if (result)
+		*result = made->base.test;
+	if (status != BATTEN_OK)
+		batch_engine_destroy(&made->base);
+	else
+		*out = made;
+	return status;
 }
 
 size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 {
-	const batten_device *device = search_engine_device(engine);
+	const batten_device *device = batch_engine_device(&engine->base);
 	const size_t lanes = engine->shape.lanes;
 	const size_t group_bytes = (SEARCH_ARRAY_COUNT + 3) * plan->node_count * lanes *
-	                           bytes_of(engine->shape.precision);
+	                           batch_engine_number_size(engine->shape.precision);
 	size_t limit = BLOCK_BYTES;
 	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
 		limit = (size_t)device->max_allocation_bytes;
-	const size_t most = engine->context->options.max_memory;
+	const size_t most = engine->base.context->options.max_memory;
 	if (most > 0 && limit > most)
 		limit = most;
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
@@ -226,14 +113,14 @@ static void block_release(search_engine *engine, block *b)
 		device_buffer_destroy(buffers[i]);
 	void *memory[] = { b->stencils, b->arrays, b->settings, b->outcome };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
-		batten_release(engine->context, memory[i]);
+		batten_release(engine->base.context, memory[i]);
 }
 
 static batten_status block_allocate(search_engine *engine, const search_plan *plan, size_t count,
                                     block *b)
 {
-	batten_context *context = engine->context;
-	const size_t number = bytes_of(engine->shape.precision);
+	batten_context *context = engine->base.context;
+	const size_t number = batch_engine_number_size(engine->shape.precision);
 	b->lanes = engine->shape.lanes;
 	b->groups = (count + b->lanes - 1) / b->lanes;
 	b->arrays_size = SEARCH_ARRAY_COUNT * plan->node_count * b->lanes * number;
@@ -248,7 +135,7 @@ static batten_status block_allocate(search_engine *engine, const search_plan *pl
 
 static batten_status block_upload(search_engine *engine, const search_plan *plan, block *b)
 {
-	const size_t number = bytes_of(engine->shape.precision);
+	const size_t number = batch_engine_number_size(engine->shape.precision);
 	/* An OpenCL buffer cannot be empty. */
 	const size_t centres = (2 * plan->direction_count + 1) * sizeof(int32_t);
 	const size_t state = engine->shape.global_state
@@ -270,14 +157,14 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 	batten_status status = BATTEN_OK;
 	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
 		if (uploads[i].size > 0)
-			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
+			status = device_buffer_create(engine->base.session, uploads[i].size, uploads[i].from,
 			                              uploads[i].buffer);
 	return status;
 }
 
 static batten_status block_launch(search_engine *engine, const search_plan *plan, block *b)
 {
-	const size_t lane_bytes = b->lanes * bytes_of(engine->shape.precision);
+	const size_t lane_bytes = b->lanes * batch_engine_number_size(engine->shape.precision);
 	const int32_t numbers[] = { (int32_t)plan->station_count, (int32_t)plan->waterline_count,
 		                        plan->level_count, (int32_t)plan->options.iteration_limit };
 	const size_t group = engine->shape.work_group;
@@ -296,7 +183,7 @@ static batten_status block_launch(search_engine *engine, const search_plan *plan
 		{ .size = plan->waterline_count * lane_bytes },
 		{ .size = 2 * group * lane_bytes },
 	};
-	batten_status status = device_launch(engine->session, engine->kernel, arguments,
+	batten_status status = device_launch(engine->base.session, engine->base.kernel, arguments,
 	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
 	if (status == BATTEN_OK)
 		status = device_buffer_read(b->arrays_on, b->groups * b->arrays_size, b->arrays);
@@ -323,8 +210,7 @@ batten_status search_engine_run(search_engine *engine, const search_plan *plan,
 		if (status == BATTEN_OK)
 			status = block_launch(engine, plan, &b);
 		if (status != BATTEN_OK)
-			status = batten_fail(engine->context, status, "device %zu: %s", engine->shape.device,
-			                     device_session_error(engine->session));
+			status = batch_engine_fail(&engine->base, status);
 	}
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
 		search_unpack(plan, &problems[which[i]], i % lanes, lanes,

@@ -2,9 +2,8 @@
 #ifndef BATTEN_BATCH_SEARCH_ENGINE_H
 #define BATTEN_BATCH_SEARCH_ENGINE_H
 
+#include "batch/engine.h"
 #include "batch/search_plan.h"
-
-#include "device/device.h"
 
 /* What tells one build of the kernel from another. */
 typedef struct search_shape {
@@ -24,13 +23,10 @@ search_shape search_shape_choose(const search_plan *plan, size_t index,
  * result (may be NULL) still tells what happened. Errors: DEVICE, KERNEL, MEMORY. */
 batten_status search_engine_open(batten_context *context, const search_shape *shape,
                                  search_engine **out, batten_selftest *result);
-/* Ends all engines of a context. */
-void search_engines_destroy(batten_context *context, search_engine *first);
 
-batten_context *search_engine_context(const search_engine *engine);
-const search_shape *search_engine_shape(const search_engine *engine);
-const batten_device *search_engine_device(const search_engine *engine);
-bool search_engine_is_strict(const search_engine *engine);
+batch_engine *search_engine_base(search_engine *e);
+const search_shape *search_engine_shape(const search_engine *e);
+bool search_engine_is_strict(const search_engine *e);
 
 /* Searches one launch should have, so that every compute unit has work and memory stays bounded. */
 size_t search_engine_block(const search_engine *engine, const search_plan *plan);

@@ -66,22 +66,6 @@ static void compare(const double *y, const batten_search_result *found, const do
 		*worst = off;
 }
 
-static void judge(batten_selftest *result, double worst)
-{
-	const double tolerance = result->precision == BATTEN_F64 ? 1e-6 : 1e-3;
-	if (result->different == 0)
-		result->result = BATTEN_SELFTEST_EQUAL;
-	else if (worst <= tolerance)
-		result->result = BATTEN_SELFTEST_DIFFERENT;
-	else
-		result->result = BATTEN_SELFTEST_FAILED;
-	if (result->different > 0)
-		(void)snprintf(
-			result->message, sizeof result->message,
-			"%zu of %zu numbers differ from the C path, the objective by up to %.3g of it",
-			result->different, result->compared, worst);
-}
-
 static batten_status run_both(search_engine *engine, const search_plan *plan,
                               const batten_search_problem *problems, size_t count, double *y,
                               batten_selftest *result)
@@ -105,13 +89,14 @@ static batten_status run_both(search_engine *engine, const search_plan *plan,
 	}
 	search_reference_release(&reference);
 	if (status == BATTEN_OK)
-		judge(result, worst);
+		batch_engine_compare(result, worst, result->precision == BATTEN_F64 ? 1e-6 : 1e-3,
+		                     "the objective");
 	return status;
 }
 
 batten_status search_selftest_run(search_engine *engine, batten_selftest *result)
 {
-	batten_context *context = search_engine_context(engine);
+	batten_context *context = search_engine_base(engine)->context;
 	const search_shape *shape = search_engine_shape(engine);
 	test_hull hull;
 	make_hull(&hull);

@@ -35,10 +35,11 @@ static void emit(const bench_row *row, void *user)
 		return;
 	}
 	json_t *object = json_pack(
-		"{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:n}", "name", row->name, "case",
+		"{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:o}", "name", row->name, "case",
 		row->case_name, "precision", precision, "device", row->device, "value", row->value, "unit",
 		row->unit, "reference", row->reference, "reference_value", row->reference_value, "ratio",
-		row->ratio, "ratio_low", row->ratio_low, "ratio_high", row->ratio_high, "percent_of_peak");
+		row->ratio, "ratio_low", row->ratio_low, "ratio_high", row->ratio_high, "percent_of_peak",
+		row->percent_of_peak > 0.0 ? json_real(row->percent_of_peak) : json_null());
 	(void)json_array_append_new(out->list, object);
 }
 

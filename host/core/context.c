@@ -8,7 +8,7 @@
 
 /* What higher rooms keep in a context; declared here so that it can end without their headers. */
 void device_system_destroy(batten_context *context, struct device_system *system);
-void search_engines_destroy(batten_context *context, struct search_engine *first);
+void batch_engines_destroy(batten_context *context, struct batch_engine *first);
 
 static void *allocate_from_heap(size_t size, void *user)
 {
@@ -115,7 +115,7 @@ void batten_context_destroy(batten_context *context)
 {
 	if (!context)
 		return;
-	search_engines_destroy(context, context->engines);
+	batch_engines_destroy(context, context->engines);
 	device_system_destroy(context, context->devices);
 	batten_release(context, context->cache_directory);
 	(void)pthread_mutex_destroy(&context->error_lock);

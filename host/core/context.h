@@ -8,7 +8,7 @@
 #include <stdarg.h>
 
 struct device_system;
-struct search_engine;
+struct batch_engine;
 
 struct batten_context {
 	batten_context_options options; /* allocate, release and threads are always set */
@@ -16,7 +16,7 @@ struct batten_context {
 	pthread_mutex_t error_lock;     /* workers fail in their own threads */
 	char error[1024];
 	struct device_system *devices; /* OpenCL, opened at first use; owned by host/device */
-	struct search_engine *engines; /* kernels built so far; owned by host/batch */
+	struct batch_engine *engines;  /* kernels built so far; owned by host/batch */
 };
 
 /* Memory of the context, zeroed. NULL when count * size overflows, exceeds max_memory or memory is

@@ -1,0 +1,158 @@
+/* surface.curvature_grid and surface.energy: batches of noisy Wigley hulls as bicubic surfaces, 24 x 12
+ * poles, on the device against the plain C path. The grid keeps K and H at 256 x 128 points and copies
+ * them out; the integrals keep nothing. 210 operations a point: what the tensor product and the two
+ * curvatures take at least. */
+#include "bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALONG = 24, UP = 12, POLES = ALONG * UP, GRID_U = 256, GRID_V = 128, OPERATIONS = 210 };
+enum { GAUSS = 12, GAUSS_COUNT = (ALONG - 3) * (UP - 3) * GAUSS * GAUSS };
+
+typedef struct workload {
+	bool energy;
+	size_t count, points; /* surfaces, points of each */
+	double u[GRID_U], v[GRID_V];
+	batten_surface **surfaces;
+	double *values, *known;
+	batten_surface_energies *energies, *known_energies;
+} workload;
+
+static void workload_release(workload *w)
+{
+	for (size_t s = 0; w->surfaces && s < w->count; s++)
+		batten_surface_destroy(w->surfaces[s]);
+	free(w->surfaces);
+	free(w->values);
+	free(w->known);
+	free(w->energies);
+	free(w->known_energies);
+}
+
+static batten_status make_surface(batten_context *context, uint32_t state, batten_surface **out)
+{
+	double poles[3 * POLES];
+	for (int n = 0; n < POLES; n++) {
+		const int i = n % ALONG;
+		const int k = n / ALONG;
+		const double a = i / (ALONG - 1.0);
+		const double b = k / (UP - 1.0);
+		state = state * 1664525u + 1013904223u;
+		poles[3 * n] = 16.0 * a;
+		poles[3 * n + 1] = 3.2 * a * (1.0 - a) * b * (2.0 - b) +
+		                   0.002 * ((double)(state >> 8) / (1u << 24) - 0.5);
+		poles[3 * n + 2] = b;
+	}
+	const batten_surface_net net = {
+		.order_u = 4, .order_v = 4, .count_u = ALONG, .count_v = UP, .poles_m = poles
+	};
+	return batten_surface_create(context, &net, out);
+}
+
+static batten_status workload_create(const bench_settings *settings, bool energy, workload *w)
+{
+	*w = (workload){ .energy = energy,
+		             .count = settings->full ? 256 : 64,
+		             .points = energy ? GAUSS_COUNT : GRID_U * GRID_V };
+	const size_t numbers = energy ? 1 : w->count * w->points * 2;
+	w->surfaces = calloc(w->count, sizeof *w->surfaces);
+	w->values = calloc(numbers, sizeof *w->values);
+	w->known = calloc(numbers, sizeof *w->known);
+	w->energies = calloc(w->count, sizeof *w->energies);
+	w->known_energies = calloc(w->count, sizeof *w->known_energies);
+	if (!w->surfaces || !w->values || !w->known || !w->energies || !w->known_energies)
+		return BATTEN_MEMORY;
+	for (int i = 0; i < GRID_U; i++)
+		w->u[i] = i / (GRID_U - 1.0);
+	for (int k = 0; k < GRID_V; k++)
+		w->v[k] = k / (GRID_V - 1.0);
+	batten_status status = BATTEN_OK;
+	for (size_t s = 0; s < w->count && status == BATTEN_OK; s++)
+		status = make_surface(settings->context, 2654435761u * (uint32_t)(s + 1), &w->surfaces[s]);
+	return status;
+}
+
+/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
+static batten_status timed(const bench_settings *settings, const workload *w, int device,
+                           batten_precision precision, batten_search_run *run, double *seconds)
+{
+	const bool wall = !bench_is_cpu(settings);
+	const bool known = device == BATTEN_DEVICE_REFERENCE;
+	const batten_surface *const *surfaces = (const batten_surface *const *)w->surfaces;
+	const batten_surface_samples samples = { GRID_U, GRID_V, w->u, w->v };
+	batten_surface_batch_options options;
+	batten_surface_batch_options_default(&options);
+	options.device = device;
+	options.precision = precision;
+	options.gauss_points = GAUSS;
+	batten_status status = BATTEN_OK;
+	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
+	if (w->energy)
+		status = batten_surface_energy_batch(settings->context, w->count, surfaces, &options,
+		                                     known ? w->known_energies : w->energies, run);
+	else
+		status = batten_surface_grid_batch(settings->context, w->count, surfaces, &samples,
+		                                   &options, known ? w->known : w->values, NULL, run);
+	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
+	return status;
+}
+
+static bool same_results(const workload *w)
+{
+	if (w->energy)
+		return memcmp(w->energies, w->known_energies, w->count * sizeof *w->energies) == 0;
+	return memcmp(w->values, w->known, w->count * w->points * 2 * sizeof *w->values) == 0;
+}
+
+static batten_status run_case(const bench_settings *settings, bool energy,
+                              batten_precision precision)
+{
+	workload w;
+	bench_pairs pairs;
+	batten_search_run run = { .strict = true };
+	bench_row row = { .precision = precision, .unit = "ns per point", .reference = "reference" };
+	double seconds = 0.0;
+	batten_status status = workload_create(settings, energy, &w);
+	/* Warm-up, and the proof that both do the same. */
+	if (status == BATTEN_OK)
+		status = timed(settings, &w, settings->device, precision, &run, &seconds);
+	if (status == BATTEN_OK)
+		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, NULL, &seconds);
+	if (status == BATTEN_OK && run.strict && !same_results(&w))
+		status = BATTEN_INTERNAL;
+	(void)snprintf(row.name, sizeof row.name, "surface.%s", energy ? "energy" : "curvature_grid");
+	(void)snprintf(row.case_name, sizeof row.case_name, "%dx%d bicubic batch %zu", ALONG, UP,
+	               w.count);
+	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
+	const double operations = (double)OPERATIONS * (double)(w.count * w.points);
+	double share[BENCH_PAIRS] = { 0.0 };
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		status = timed(settings, &w, settings->device, precision, NULL, &pairs.value[p]);
+		if (status == BATTEN_OK)
+			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, NULL,
+			               &pairs.reference[p]);
+		const double peak = bench_is_cpu(settings) ? bench_peak(precision) : 0.0;
+		share[p] = peak > 0.0 ? operations / pairs.value[p] / peak : 0.0;
+	}
+	if (status == BATTEN_OK) {
+		bench_pairs_judge(&pairs, 1e9 / (double)(w.count * w.points), &row);
+		row.percent_of_peak = 100.0 * bench_median(share);
+		settings->emit(&row, settings->user);
+	}
+	workload_release(&w);
+	return status;
+}
+
+batten_status bench_surface_curvature_grid(const bench_settings *settings)
+{
+	const batten_status status = run_case(settings, false, BATTEN_F64);
+	return status == BATTEN_OK ? run_case(settings, false, BATTEN_F32) : status;
+}
+
+batten_status bench_surface_energy(const bench_settings *settings)
+{
+	const batten_status status = run_case(settings, true, BATTEN_F64);
+	return status == BATTEN_OK ? run_case(settings, true, BATTEN_F32) : status;
+}

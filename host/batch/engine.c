@@ -1,0 +1,163 @@
+#include "batch/engine.h"
+
+#include <stdio.h>
+#include <string.h>
+
+size_t batch_engine_number_size(batten_precision precision)
+{
+	return precision == BATTEN_F64 ? sizeof(double) : sizeof(float);
+}
+
+void batch_engine_shape_choose(const batten_device *device, batten_precision precision,
+                               unsigned *lanes, unsigned *work_group)
+{
+	/* A CPU runs a work-item at a time: lanes fill its vector registers. A GPU has no vector
+	 * registers: its work-items share one search or one line. */
+	if (*lanes == 0)
+		*lanes = !device->is_cpu ? 1 : precision == BATTEN_F64 ? 8 : 16;
+	if (*work_group == 0)
+		*work_group = device->is_cpu ? 1 : 64;
+	if (device->max_work_group > 0 && *work_group > device->max_work_group)
+		*work_group = device->max_work_group;
+}
+
+static bool same_recipe(const batch_engine_recipe *a, const batch_engine_recipe *b)
+{
+	return a->device == b->device && a->precision == b->precision && a->lanes == b->lanes &&
+	       a->work_group == b->work_group && strcmp(a->kernel, b->kernel) == 0 &&
+	       strcmp(a->options, b->options) == 0;
+}
+
+batch_engine *batch_engine_find(const batten_context *context, const batch_engine_recipe *recipe)
+{
+	for (batch_engine *known = context->engines; known; known = known->next)
+		if (same_recipe(&known->recipe, recipe))
+			return known;
+	return NULL;
+}
+
+static batten_status build(batch_engine *e)
+{
+	const batch_engine_recipe *recipe = &e->recipe;
+	const batten_device *device = batch_engine_device(e);
+	char options[256];
+	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d -DBATTEN_LANES=%u %s%s",
+	               recipe->precision == BATTEN_F64, recipe->lanes, recipe->options,
+	               recipe->precision == BATTEN_F32 && device->has_correct_f32
+	                   ? " -cl-fp32-correctly-rounded-divide-sqrt"
+	                   : "");
+	batten_status status = device_program_build(e->session, recipe->kernel, recipe->source, options,
+	                                            &e->program, NULL, &e->test.build_s);
+	if (status == BATTEN_OK)
+		status = device_kernel_create(e->program, recipe->kernel, &e->kernel);
+	if (status != BATTEN_OK)
+		return batch_engine_fail(e, status);
+	if (device_kernel_group_limit(e->kernel) < recipe->work_group)
+		return batten_fail(
+			e->context, BATTEN_KERNEL,
+			"device %zu (%s): the kernel %s runs with at most %zu work-items a group, "
+			"%u are asked for",
+			recipe->device, device->name, recipe->kernel, device_kernel_group_limit(e->kernel),
+			recipe->work_group);
+	return BATTEN_OK;
+}
+
+static batten_status check_device(const batch_engine *e)
+{
+	if (e->recipe.precision == BATTEN_F64 && !batch_engine_device(e)->has_f64)
+		return batten_fail(e->context, BATTEN_DEVICE, "device %zu (%s) has no f64",
+		                   e->recipe.device, batch_engine_device(e)->name);
+	return BATTEN_OK;
+}
+
+batten_status batch_engine_start(batch_engine *e, batten_context *context,
+                                 const batch_engine_recipe *recipe)
+{
+	e->context = context;
+	e->recipe = *recipe;
+	e->test = (batten_selftest){ .precision = recipe->precision, .result = BATTEN_SELFTEST_FAILED };
+	(void)snprintf(e->test.kernel, sizeof e->test.kernel, "%s", recipe->kernel);
+	batten_status status = device_session_open(context, recipe->device, &e->session);
+	if (status == BATTEN_OK)
+		status = check_device(e);
+	if (status == BATTEN_DEVICE && e->session)
+		e->test.result = BATTEN_SELFTEST_ABSENT;
+	if (status == BATTEN_OK)
+		status = build(e);
+	if (status != BATTEN_OK)
+		(void)snprintf(e->test.message, sizeof e->test.message, "%s",
+		               batten_context_error(context));
+	return status;
+}
+
+batten_status batch_engine_judge(batch_engine *e, batten_status ran)
+{
+	if (ran == BATTEN_MEMORY)
+		return ran;
+	if (ran != BATTEN_OK) {
+		e->test.result = BATTEN_SELFTEST_FAILED;
+		(void)snprintf(e->test.message, sizeof e->test.message, "%s",
+		               batten_context_error(e->context));
+	}
+	if (e->test.result == BATTEN_SELFTEST_FAILED)
+		return batten_fail(e->context, BATTEN_KERNEL, "device %zu (%s): self-test failed: %s",
+		                   e->recipe.device, batch_engine_device(e)->name, e->test.message);
+	return BATTEN_OK;
+}
+
+void batch_engine_compare(batten_selftest *test, double worst, double tolerance, const char *what)
+{
+	if (test->different == 0)
+		test->result = BATTEN_SELFTEST_EQUAL;
+	else if (worst <= tolerance)
+		test->result = BATTEN_SELFTEST_DIFFERENT;
+	else
+		test->result = BATTEN_SELFTEST_FAILED;
+	if (test->different > 0)
+		(void)snprintf(test->message, sizeof test->message,
+		               "%zu of %zu numbers differ from the C path, %s by up to %.3g of it",
+		               test->different, test->compared, what, worst);
+}
+
+void batch_engine_keep(batch_engine *e)
+{
+	e->next = e->context->engines;
+	e->context->engines = e;
+}
+
+void batch_engine_destroy(batch_engine *e)
+{
+	if (!e)
+		return;
+	device_kernel_destroy(e->kernel);
+	device_program_destroy(e->program);
+	device_session_close(e->session);
+	batten_release(e->context, e);
+}
+
+void batch_engines_destroy(batten_context *context, batch_engine *first)
+{
+	(void)context;
+	while (first) {
+		batch_engine *next = first->next;
+		batch_engine_destroy(first);
+		first = next;
+	}
+}
+
+const batten_device *batch_engine_device(const batch_engine *e)
+{
+	return device_session_device(e->session);
+}
+
+bool batch_engine_is_strict(const batch_engine *e)
+{
+	return e->test.result == BATTEN_SELFTEST_EQUAL;
+}
+
+batten_status batch_engine_fail(const batch_engine *e, batten_status status)
+{
+	/* The session's error names the device. */
+	return batten_fail(e->context, status, "device %zu: %s", e->recipe.device,
+	                   device_session_error(e->session));
+}

@@ -1,0 +1,70 @@
+/* A kernel made ready on one device in one shape, known to equal the C path or not. What a kernel is
+ * given and gives back is the business of its own engine (search_engine, surface_engine), whose first
+ * member is this one.
+ *
+ *   found = batch_engine_find(context, &recipe);              the context has it already, or
+ *   status = batch_engine_start(engine, context, &recipe);    session, program, kernel
+ *   status = batch_engine_judge(engine, self-test's status);  wrong answers shut the device out
+ *   batch_engine_keep(engine);                                from now on the context's
+ */
+#ifndef BATTEN_BATCH_ENGINE_H
+#define BATTEN_BATCH_ENGINE_H
+
+#include "device/device.h"
+
+/* What tells one build from another. */
+typedef struct batch_engine_recipe {
+	const char *kernel; /* name of the kernel, of its program and of its self-test */
+	const char *source;
+	size_t device;
+	batten_precision precision;
+	unsigned lanes, work_group;
+	char options[160]; /* of the compiler, beyond precision and lanes */
+} batch_engine_recipe;
+
+typedef struct batch_engine {
+	batten_context *context;
+	batch_engine_recipe recipe;
+	device_session *session;
+	device_program *program;
+	device_kernel *kernel;
+	batten_selftest test;
+	struct batch_engine *next;
+} batch_engine;
+
+/* Bytes of a number. */
+size_t batch_engine_number_size(batten_precision precision);
+
+/* The lanes and work-items that suit a device; those given where they are not 0. */
+void batch_engine_shape_choose(const batten_device *device, batten_precision precision,
+                               unsigned *lanes, unsigned *work_group);
+
+/* The context's engine of that recipe, or NULL. */
+batch_engine *batch_engine_find(const batten_context *context, const batch_engine_recipe *recipe);
+
+/* Fills a zeroed engine. Errors: DEVICE, KERNEL, MEMORY; the test then tells what happened and
+ * batch_engine_destroy() is due. */
+batten_status batch_engine_start(batch_engine *e, batten_context *context,
+                                 const batch_engine_recipe *recipe);
+
+/* Completes the test after the self-test ran: an error or wrong answers are an error here.
+ * Errors: KERNEL, MEMORY. */
+batten_status batch_engine_judge(batch_engine *e, batten_status ran);
+
+/* What the numbers compared say: equal, different within the tolerance (worst deviation, relative to
+ * what), or failed. */
+void batch_engine_compare(batten_selftest *test, double worst, double tolerance, const char *what);
+
+void batch_engine_keep(batch_engine *e);
+void batch_engine_destroy(batch_engine *e); /* NULL is allowed; releases e itself */
+
+/* Ends all engines of a context. */
+void batch_engines_destroy(batten_context *context, batch_engine *first);
+
+const batten_device *batch_engine_device(const batch_engine *e);
+bool batch_engine_is_strict(const batch_engine *e);
+
+/* Names the device in the error of a launch. */
+batten_status batch_engine_fail(const batch_engine *e, batten_status status);
+
+#endif

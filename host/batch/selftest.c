@@ -1,0 +1,57 @@
+/* batten_device_selftest: every kernel in the shape a device would run it in. */
+#include "batch/search_engine.h"
+#include "batch/surface_engine.h"
+
+static batten_status test_search(batten_context *context, size_t index, const batten_device *device,
+                                 batten_precision precision, batten_selftest *result)
+{
+	const double x[] = { 0.0, 1.0, 2.0 };
+	const batten_grid grid = { 3, 3, x, x };
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.precision = precision;
+	search_plan *plan = NULL;
+	search_engine *engine = NULL;
+	const batten_status made = search_plan_create(context, &grid, 0, NULL, &options, &plan);
+	if (made != BATTEN_OK)
+		return made;
+	const search_shape shape = search_shape_choose(plan, index, device);
+	search_plan_destroy(plan);
+	return search_engine_open(context, &shape, &engine, result);
+}
+
+static batten_status test_surfaces(batten_context *context, size_t index,
+                                   const batten_device *device, batten_precision precision,
+                                   batten_selftest *result)
+{
+	/* The commonest hull: bicubic, all that is known of a point. */
+	const surface_plan plan = { .context = context,
+		                        .output = SURFACE_OUTPUT_EVERYTHING,
+		                        .u = { .order = 4 },
+		                        .v = { .order = 4 },
+		                        .precision = precision };
+	batch_engine *engine = NULL;
+	return surface_engine_open(&plan, index, device, &engine, result);
+}
+
+batten_status batten_device_selftest(batten_context *context, size_t index,
+                                     batten_selftest *results, size_t capacity, size_t *count)
+{
+	batten_device device;
+	const batten_status status = batten_device_describe(context, index, &device);
+	if (status != BATTEN_OK)
+		return status;
+	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
+	static batten_status (*const tests[])(batten_context *, size_t, const batten_device *,
+	                                      batten_precision,
+	                                      batten_selftest *) = { test_search, test_surfaces };
+	enum { PRECISIONS = 2, TESTS = 2 };
+	*count = (size_t)PRECISIONS * TESTS;
+	for (size_t t = 0; t < *count && t < capacity; t++) {
+		const batten_status opened = tests[t / PRECISIONS](context, index, &device,
+		                                                   precisions[t % PRECISIONS], &results[t]);
+		if (opened == BATTEN_MEMORY)
+			return opened;
+	}
+	return BATTEN_OK;
+}

@@ -1,0 +1,183 @@
+/* batten surface: a hull as one B-spline surface. */
+#include "cli.h"
+
+#include "json_out.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_command command = {
+	.name = "surface",
+	.usage = "HULL.csv --net MxN [--out S.json] [OPTION ...]",
+	.summary = "fits a B-spline surface to the offsets of a hull by least squares",
+	.example = "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.json\n"
+			   "  batten surface data/hulls/wigley.csv --net 3x3 --order 3x3 --json\n",
+	.notes =
+		"The net has M poles along the hull and N from keel to deck; its edges follow keel, stern,\n"
+		"stem and the tops of the sections. Edges in the centreplane keep y = 0. A net of as many\n"
+		"poles as a full table has stations and waterlines goes through every point. The deviation\n"
+		"is the distance of the offsets from the nearest point of the surface. S.json is described\n"
+		"in data/schema/surface.schema.json: metres, frame ap-fwd.\n",
+};
+
+struct request {
+	cli_common common;
+	const char *hull_path, *out, *net, *order, *rounded;
+	bool free_edges;
+	batten_fit_options fit;
+};
+
+static void print_table(const struct request *request, const batten_hull *hull,
+                        const batten_fit_deviation *deviation)
+{
+	const batten_fit_options *fit = &request->fit;
+	(void)printf("%s: %zu x %zu poles of order %zu x %zu, fitted to %zu points; metres, frame "
+	             "ap-fwd\n\n",
+	             batten_hull_name(hull), fit->count_u, fit->count_v, fit->order_u, fit->order_v,
+	             deviation->point_count);
+	(void)printf("deviation, rms      %12.6g m  %8.4f %% of the half-beam\n", deviation->rms_m,
+	             deviation->rms_pct);
+	(void)printf("deviation, largest  %12.6g m  %8.4f %% of the half-beam\n", deviation->max_m,
+	             deviation->max_pct);
+	(void)printf("  at x %.6g, y %.6g, z %.6g\n", deviation->x_m, deviation->y_m, deviation->z_m);
+}
+
+static batten_status print_json(const struct request *request, const batten_hull *hull,
+                                const batten_fit_deviation *deviation)
+{
+	const batten_fit_options *fit = &request->fit;
+	json_t *object = json_pack(
+		"{s:s, s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I}", "name", batten_hull_name(hull), "unit",
+		"m", "frame", "ap-fwd", "order_u", (json_int_t)fit->order_u, "order_v",
+		(json_int_t)fit->order_v, "count_u", (json_int_t)fit->count_u, "count_v",
+		(json_int_t)fit->count_v, "points", (json_int_t)deviation->point_count, "corrections",
+		(json_int_t)deviation->corrections);
+	const struct {
+		const char *name;
+		double value;
+	} numbers[] = {
+		{ "half_beam_m", batten_hull_half_beam_m(hull) },
+		{ "deviation_rms_m", deviation->rms_m },
+		{ "deviation_max_m", deviation->max_m },
+		{ "deviation_rms_pct", deviation->rms_pct },
+		{ "deviation_max_pct", deviation->max_pct },
+		{ "deviation_max_x_m", deviation->x_m },
+		{ "deviation_max_y_m", deviation->y_m },
+		{ "deviation_max_z_m", deviation->z_m },
+	};
+	for (size_t i = 0; object && i < sizeof numbers / sizeof numbers[0]; i++)
+		(void)json_object_set_new(object, numbers[i].name, cli_json_number(numbers[i].value));
+	return cli_json_print("surface", object);
+}
+
+static batten_status make_surface(const struct request *request, batten_context *context)
+{
+	batten_hull *hull = NULL;
+	batten_surface *surface = NULL;
+	batten_fit_deviation deviation;
+	batten_status status = batten_hull_read(context, request->hull_path, &hull);
+	if (status == BATTEN_OK)
+		status = batten_hull_fit(context, hull, &request->fit, &surface, &deviation);
+	if (status == BATTEN_OK && request->out)
+		status = batten_surface_write(context, surface, request->out);
+	if (status != BATTEN_OK)
+		status = cli_failure("surface", context, status);
+	else if (request->common.json)
+		status = print_json(request, hull, &deviation);
+	else
+		print_table(request, hull, &deviation);
+	batten_surface_destroy(surface);
+	batten_hull_destroy(hull);
+	return status;
+}
+
+/* "MxN", both whole numbers below 10000. */
+static bool read_pair(const char *text, size_t *first, size_t *second)
+{
+	size_t values[2] = { 0, 0 };
+	for (size_t i = 0; i < 2; i++) {
+		size_t digits = 0;
+		for (; *text >= '0' && *text <= '9' && digits < 4; text++, digits++)
+			values[i] = 10 * values[i] + (size_t)(*text - '0');
+		if (digits == 0 || (i == 0 && *text++ != 'x'))
+			return false;
+	}
+	if (*text != '\0')
+		return false;
+	*first = values[0];
+	*second = values[1];
+	return true;
+}
+
+static batten_status read_rounded(const char *text, unsigned *out)
+{
+	static const char *const names[] = { "keel", "stern", "stem" };
+	static const unsigned bits[] = { BATTEN_ROUNDED_KEEL, BATTEN_ROUNDED_STERN,
+		                             BATTEN_ROUNDED_STEM };
+	for (const char *word = text;;) {
+		const size_t length = strcspn(word, ",");
+		size_t i = 0;
+		while (i < 3 && (strlen(names[i]) != length || strncmp(names[i], word, length) != 0))
+			i++;
+		if (i == 3)
+			return cli_usage("surface", "--rounded: found '%s', expected keel, stern, stem", text);
+		*out |= bits[i];
+		if (word[length] == '\0')
+			return BATTEN_OK;
+		word += length + 1;
+	}
+}
+
+static batten_status read_request(struct request *request)
+{
+	batten_fit_options *fit = &request->fit;
+	if (!request->net)
+		return cli_usage("surface", "--net MxN was expected: poles along the hull, keel to deck");
+	if (!read_pair(request->net, &fit->count_u, &fit->count_v))
+		return cli_usage("surface", "--net: found '%s', expected MxN, as 13x13", request->net);
+	if (request->order && !read_pair(request->order, &fit->order_u, &fit->order_v))
+		return cli_usage("surface", "--order: found '%s', expected KxL, as 4x4", request->order);
+	if (request->out) {
+		const size_t length = strlen(request->out);
+		if (length < 6 || strcmp(request->out + length - 5, ".json") != 0)
+			return cli_usage("surface", "--out: found '%s', expected a name that ends in .json",
+			                 request->out);
+	}
+	fit->hold_centreplane = !request->free_edges;
+	return request->rounded ? read_rounded(request->rounded, &fit->rounded) : BATTEN_OK;
+}
+
+batten_status cli_surface(int argc, char **argv)
+{
+	struct request request = { 0 };
+	batten_fit_options_default(&request.fit);
+	const cli_option options[] = {
+		{ "net", CLI_TEXT, &request.net, "MxN", "poles along the hull and from keel to deck" },
+		{ "order", CLI_TEXT, &request.order, "KxL", "orders, degree + 1, 2 to 8 (4x4)" },
+		{ "out", CLI_TEXT, &request.out, "S.json", "where the surface goes" },
+		{ "rounded", CLI_TEXT, &request.rounded, "EDGES",
+		  "edges that leave the centreplane square to it: keel,stern,stem" },
+		{ "free-edges", CLI_FLAG, &request.free_edges, NULL,
+		  "do not hold y = 0 on edges in the centreplane" },
+		{ "corrections", CLI_COUNT, &request.fit.correction_limit, "N",
+		  "rounds of better parameters, at most (20)" },
+		{ 0 },
+	};
+	size_t count = 0;
+	bool done = false;
+	batten_status status = cli_parse(&command, argc, argv, options, &request.common,
+	                                 &request.hull_path, 1, &count, &done);
+	if (status != BATTEN_OK || done)
+		return status;
+	if (count != 1)
+		return cli_usage("surface", "an offsets file was expected");
+	status = read_request(&request);
+	batten_context *context = NULL;
+	if (status == BATTEN_OK)
+		status = cli_context_create("surface", &request.common, &context);
+	if (status != BATTEN_OK)
+		return status;
+	status = make_surface(&request, context);
+	batten_context_destroy(context);
+	return status;
+}

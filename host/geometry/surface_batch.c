@@ -1,0 +1,267 @@
+/* batten_surface_grid_batch and batten_surface_energy_batch. */
+#include "geometry/surface_batch.h"
+
+#include "batch/surface_batch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The values of the public list are those of the kernel, in its order. */
+_Static_assert((int)BATTEN_SURFACE_VALUE_COUNT == (int)SURFACE_EVERYTHING_COUNT, "one list");
+_Static_assert((int)BATTEN_SURFACE_VALUE_area == (int)SURFACE_AREA, "one list");
+_Static_assert((int)BATTEN_SURFACE_VALUE_normal_x == (int)SURFACE_NORMAL, "one list");
+_Static_assert((int)BATTEN_SURFACE_VALUE_mean == (int)SURFACE_MEAN, "one list");
+
+void batten_surface_batch_options_default(batten_surface_batch_options *options)
+{
+	*options = (batten_surface_batch_options){ .struct_size = sizeof *options,
+		                                       .device = BATTEN_DEVICE_AUTO,
+		                                       .precision = BATTEN_F64,
+		                                       .output = BATTEN_SURFACE_CURVATURE };
+}
+
+size_t batten_surface_output_count(batten_surface_output output)
+{
+	switch (output) {
+	case BATTEN_SURFACE_POSITION:
+		return SURFACE_POSITION_COUNT;
+	case BATTEN_SURFACE_CURVATURE:
+		return SURFACE_CURVATURE_COUNT;
+	case BATTEN_SURFACE_EVERYTHING:
+		return SURFACE_EVERYTHING_COUNT;
+	}
+	return 0;
+}
+
+static bool same_knots(const double *a, const double *b, size_t count)
+{
+	for (size_t n = 0; n < count; n++)
+		if (a[n] != b[n])
+			return false;
+	return true;
+}
+
+batten_status surface_topology_of(batten_context *context, size_t count,
+                                  const batten_surface *const *surfaces, surface_topology *out)
+{
+	if (count == 0 || !surfaces || !surfaces[0])
+		return batten_fail(context, BATTEN_USAGE, "no surface: at least one is expected");
+	const batten_surface *first = surfaces[0];
+	const surface_topology t = { first->order_u,        first->order_v, first->count_u,
+		                         first->count_v,        first->knots_u, first->knots_v,
+		                         first->weights != NULL };
+	for (size_t s = 1; s < count; s++) {
+		const batten_surface *other = surfaces[s];
+		const char *fault = NULL;
+		if (!other)
+			fault = "is NULL";
+		else if (other->order_u != t.order_u || other->order_v != t.order_v)
+			fault = "has other orders than surface 0";
+		else if (other->count_u != t.count_u || other->count_v != t.count_v)
+			fault = "has another number of poles than surface 0";
+		else if ((other->weights != NULL) != t.rational)
+			fault = "has weights and surface 0 has none, or the other way round";
+		else if (!same_knots(other->knots_u, t.knots_u, t.count_u + t.order_u) ||
+		         !same_knots(other->knots_v, t.knots_v, t.count_v + t.order_v))
+			fault = "has other knots than surface 0";
+		if (fault)
+			return batten_fail(context, BATTEN_USAGE, "surface %zu of %zu %s", s, count, fault);
+	}
+	*out = t;
+	return BATTEN_OK;
+}
+
+static double largest_of(const double *numbers, size_t count)
+{
+	double most = 0.0;
+	for (size_t n = 0; n < count; n++)
+		most = fmax(most, fabs(numbers[n]));
+	return most;
+}
+
+static double largest_of_table(const surface_samples *samples)
+{
+	return (double)samples->order *
+	       largest_of(samples->table, samples->count * SURFACE_TABLE_SIZE(samples->order));
+}
+
+/* The area of the net's box, as a square of its diagonal, over that of the parameters. */
+static double area_of(const batten_surface *surface)
+{
+	double square = 0.0;
+	for (size_t c = 0; c < 3; c++) {
+		double least = surface->poles[c];
+		double most = least;
+		for (size_t n = 1; n < surface->count_u * surface->count_v; n++) {
+			least = fmin(least, surface->poles[3 * n + c]);
+			most = fmax(most, surface->poles[3 * n + c]);
+		}
+		square += (most - least) * (most - least);
+	}
+	const double *u = surface->knots_u;
+	const double *v = surface->knots_v;
+	return square / ((u[surface->count_u] - u[surface->order_u - 1]) *
+	                 (v[surface->count_v] - v[surface->order_v - 1]));
+}
+
+/* Squares of derivatives must stay finite in the precision. */
+static batten_status check_size(const surface_plan *plan, const batten_surface *surface, size_t s,
+                                double tables)
+{
+	const size_t count = surface->count_u * surface->count_v;
+	double size = largest_of(surface->poles, 3 * count) * tables;
+	if (surface->weights) {
+		double least = surface->weights[0];
+		double most = least;
+		for (size_t n = 1; n < count; n++) {
+			least = fmin(least, surface->weights[n]);
+			most = fmax(most, surface->weights[n]);
+		}
+		if (!(least >= 1e-6 && most <= 1e6))
+			return batten_fail(plan->context, BATTEN_USAGE,
+			                   "surface %zu of %zu: weights %g to %g, 1e-6 to 1e6 are expected", s,
+			                   plan->count, least, most);
+		size *= most / least * (most / least);
+	}
+	const double limit = plan->precision == BATTEN_F64 ? 1e150 : 1e18;
+	if (size <= limit)
+		return BATTEN_OK;
+	return batten_fail(plan->context, BATTEN_USAGE,
+	                   "surface %zu of %zu: derivatives up to %g, too large for %s", s, plan->count,
+	                   size, plan->precision == BATTEN_F64 ? "f64" : "f32");
+}
+
+batten_status surface_items_of(batten_context *context, size_t count,
+                               const batten_surface *const *surfaces, const surface_plan *plan,
+                               surface_item **out)
+{
+	const double tables = largest_of_table(&plan->u) * largest_of_table(&plan->v);
+	batten_status status = BATTEN_OK;
+	surface_item *items = batten_allocate(context, count, sizeof *items);
+	if (!items)
+		return BATTEN_MEMORY;
+	for (size_t s = 0; s < count && status == BATTEN_OK; s++) {
+		status = check_size(plan, surfaces[s], s, tables);
+		items[s] = (surface_item){ .poles_m = surfaces[s]->poles,
+			                       .weights = surfaces[s]->weights,
+			                       .area = area_of(surfaces[s]) };
+	}
+	if (status == BATTEN_OK)
+		*out = items;
+	else
+		batten_release(context, items);
+	return status;
+}
+
+static batten_status check_options(batten_context *context,
+                                   const batten_surface_batch_options *given,
+                                   batten_surface_batch_options *chosen)
+{
+	batten_surface_batch_options_default(chosen);
+	if (given)
+		*chosen = *given;
+	if (chosen->struct_size != sizeof *chosen)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "surface batch options of another version of batten");
+	if (batten_surface_output_count(chosen->output) == 0)
+		return batten_fail(context, BATTEN_USAGE, "surface output %d: 0 to 2 are expected",
+		                   (int)chosen->output);
+	return BATTEN_OK;
+}
+
+static surface_plan plan_of(batten_context *context, size_t count, const surface_topology *topology,
+                            const batten_surface_batch_options *options)
+{
+	return (surface_plan){ .context = context,
+		                   .rational = topology->rational,
+		                   .segment_length = 1,
+		                   .device = options->device,
+		                   .precision = options->precision,
+		                   .lanes = options->lanes,
+		                   .work_group = options->work_group,
+		                   .count = count };
+}
+
+/* Takes the tables of the plan along. */
+static batten_status run_plan(surface_plan *plan, const batten_surface *const *surfaces,
+                              batten_search_run *run)
+{
+	surface_item *items = NULL;
+	batten_status status = surface_items_of(plan->context, plan->count, surfaces, plan, &items);
+	plan->items = items;
+	if (status == BATTEN_OK)
+		status = surface_batch_run(plan, run);
+	batten_release(plan->context, items);
+	return status;
+}
+
+batten_status batten_surface_grid_batch(batten_context *context, size_t count,
+                                        const batten_surface *const *surfaces,
+                                        const batten_surface_samples *samples,
+                                        const batten_surface_batch_options *options, double *values,
+                                        uint8_t *singular, batten_search_run *run)
+{
+	static const int outputs[] = { [BATTEN_SURFACE_POSITION] = SURFACE_OUTPUT_POSITION,
+		                           [BATTEN_SURFACE_CURVATURE] = SURFACE_OUTPUT_CURVATURE,
+		                           [BATTEN_SURFACE_EVERYTHING] = SURFACE_OUTPUT_EVERYTHING };
+	batten_surface_batch_options chosen;
+	surface_topology t = { 0 };
+	batten_status status = check_options(context, options, &chosen);
+	if (status == BATTEN_OK)
+		status = surface_topology_of(context, count, surfaces, &t);
+	if (status != BATTEN_OK)
+		return status;
+	surface_plan plan = plan_of(context, count, &t, &chosen);
+	plan.output = outputs[chosen.output];
+	plan.values = values;
+	plan.singular = singular;
+	status = surface_samples_at(context, "u", t.order_u, t.count_u, t.knots_u, samples->u_count,
+	                            samples->u, &plan.u);
+	if (status == BATTEN_OK)
+		status = surface_samples_at(context, "v", t.order_v, t.count_v, t.knots_v, samples->v_count,
+		                            samples->v, &plan.v);
+	if (status == BATTEN_OK)
+		status = run_plan(&plan, surfaces, run);
+	surface_samples_release(context, &plan.u);
+	surface_samples_release(context, &plan.v);
+	return status;
+}
+
+batten_status batten_surface_energy_batch(batten_context *context, size_t count,
+                                          const batten_surface *const *surfaces,
+                                          const batten_surface_batch_options *options,
+                                          batten_surface_energies *energies, batten_search_run *run)
+{
+	batten_surface_batch_options chosen;
+	surface_topology t = { 0 };
+	batten_status status = check_options(context, options, &chosen);
+	if (status == BATTEN_OK)
+		status = surface_topology_of(context, count, surfaces, &t);
+	if (status != BATTEN_OK)
+		return status;
+	const size_t along_u = chosen.gauss_points ? chosen.gauss_points : t.order_u + 1;
+	const size_t along_v = chosen.gauss_points ? chosen.gauss_points : t.order_v + 1;
+	surface_plan plan = plan_of(context, count, &t, &chosen);
+	plan.output = SURFACE_OUTPUT_ENERGY;
+	plan.segment_length = along_u;
+	plan.values = batten_allocate(context, count, SURFACE_SUM_COUNT * sizeof *plan.values);
+	if (!plan.values)
+		return BATTEN_MEMORY;
+	status = surface_samples_gauss(context, t.order_u, t.count_u, t.knots_u, along_u, &plan.u);
+	if (status == BATTEN_OK)
+		status = surface_samples_gauss(context, t.order_v, t.count_v, t.knots_v, along_v, &plan.v);
+	if (status == BATTEN_OK)
+		status = run_plan(&plan, surfaces, run);
+	for (size_t s = 0; s < count && status == BATTEN_OK; s++) {
+		const double *sums = plan.values + s * SURFACE_SUM_COUNT;
+		energies[s] = (batten_surface_energies){ .bending = sums[SURFACE_SUM_BENDING],
+			                                     .mean = sums[SURFACE_SUM_MEAN],
+			                                     .gauss = sums[SURFACE_SUM_GAUSS],
+			                                     .area_m2 = sums[SURFACE_SUM_AREA],
+			                                     .singular = (size_t)sums[SURFACE_SUM_SINGULAR] };
+	}
+	surface_samples_release(context, &plan.u);
+	surface_samples_release(context, &plan.v);
+	batten_release(context, plan.values);
+	return status;
+}

@@ -1,0 +1,36 @@
+/* Parameters of a batch of surfaces turned into the tables that host/batch works with. */
+#ifndef BATTEN_GEOMETRY_SURFACE_BATCH_H
+#define BATTEN_GEOMETRY_SURFACE_BATCH_H
+
+#include "batch/surface_plan.h"
+#include "geometry/surface.h"
+
+/* What all surfaces of a batch agree in, found in the first of them. */
+typedef struct surface_topology {
+	size_t order_u, order_v, count_u, count_v;
+	const double *knots_u, *knots_v;
+	bool rational;
+} surface_topology;
+
+/* Errors: USAGE (no surface, or one that differs from the first). */
+batten_status surface_topology_of(batten_context *context, size_t count,
+                                  const batten_surface *const *surfaces, surface_topology *out);
+
+/* The basis at parameters of one direction; what ("u") stands for it in messages.
+ * surface_samples_release() afterwards. Errors: USAGE (outside the range), MEMORY. */
+batten_status surface_samples_at(batten_context *context, const char *what, size_t order,
+                                 size_t poles, const double *knots, size_t count,
+                                 const double *parameters, surface_samples *out);
+
+/* The same at points Gauss points of every span that is not empty, with their weights. */
+batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
+                                    const double *knots, size_t points, surface_samples *out);
+void surface_samples_release(batten_context *context, surface_samples *samples);
+
+/* What each surface has of its own; batten_release() the items. Errors: USAGE (numbers too large for
+ * the precision), MEMORY. */
+batten_status surface_items_of(batten_context *context, size_t count,
+                               const batten_surface *const *surfaces, const surface_plan *plan,
+                               surface_item **out);
+
+#endif

@@ -1,0 +1,109 @@
+#include "geometry/surface_batch.h"
+
+#include <math.h>
+#include <string.h>
+
+static batten_status allocate(batten_context *context, size_t order, size_t poles, size_t count,
+                              surface_samples *out)
+{
+	surface_samples samples = { .order = order, .poles = poles, .count = count };
+	samples.first = batten_allocate(context, count, sizeof *samples.first);
+	samples.table = batten_allocate(context, count, SURFACE_TABLE_SIZE(order) * sizeof(double));
+	if (!samples.first || !samples.table) {
+		surface_samples_release(context, &samples);
+		return BATTEN_MEMORY;
+	}
+	*out = samples;
+	return BATTEN_OK;
+}
+
+void surface_samples_release(batten_context *context, surface_samples *samples)
+{
+	batten_release(context, samples->first);
+	batten_release(context, samples->table);
+	samples->first = NULL;
+	samples->table = NULL;
+}
+
+static void fill(const double *knots, size_t span, double t, double weight, size_t n,
+                 surface_samples *samples)
+{
+	const size_t order = samples->order;
+	double rows[BSPLINE_DERIVATIVES_MOST + 1][BSPLINE_ORDER_MOST];
+	double *table = samples->table + n * SURFACE_TABLE_SIZE(order);
+	bspline_basis_derivatives(order, knots, span, t, 2, rows);
+	for (size_t d = 0; d < 3; d++)
+		memcpy(table + d * order, rows[d], order * sizeof *table);
+	table[3 * order] = weight;
+	samples->first[n] = (int32_t)(span + 1 - order);
+}
+
+batten_status surface_samples_at(batten_context *context, const char *what, size_t order,
+                                 size_t poles, const double *knots, size_t count,
+                                 const double *parameters, surface_samples *out)
+{
+	enum { SAMPLES_MOST = 65536 };
+	const double first = knots[order - 1];
+	const double last = knots[poles];
+	if (count < 1 || count > SAMPLES_MOST)
+		return batten_fail(context, BATTEN_USAGE, "%zu samples along %s: 1 to %d are expected",
+		                   count, what, SAMPLES_MOST);
+	for (size_t n = 0; n < count; n++)
+		if (!(parameters[n] >= first && parameters[n] <= last))
+			return batten_fail(context, BATTEN_USAGE, "sample %zu: %s is %g, %g to %g is expected",
+			                   n, what, parameters[n], first, last);
+	const batten_status status = allocate(context, order, poles, count, out);
+	for (size_t n = 0; n < count && status == BATTEN_OK; n++)
+		fill(knots, bspline_span(order, poles, knots, parameters[n]), parameters[n], 1.0, n, out);
+	return status;
+}
+
+/* Nodes and weights of Gauss and Legendre over -1..1, by Newton's method on the Legendre polynomial;
+ * its weights are 2 / ((1 - x^2) P'^2). */
+static void find_gauss_points(size_t count, double *nodes, double *weights)
+{
+	const double pi = acos(-1.0);
+	for (size_t n = 0; n < count; n++) {
+		double x = -cos(pi * ((double)n + 0.75) / ((double)count + 0.5));
+		double slope = 1.0;
+		for (int turn = 0; turn < 8; turn++) {
+			double before = 1.0;
+			double here = x;
+			for (size_t degree = 2; degree <= count; degree++) {
+				const double d = (double)degree;
+				const double next = ((2.0 * d - 1.0) * x * here - (d - 1.0) * before) / d;
+				before = here;
+				here = next;
+			}
+			slope = (double)count * (x * here - before) / (x * x - 1.0);
+			x -= here / slope;
+		}
+		nodes[n] = x;
+		weights[n] = 2.0 / ((1.0 - x * x) * slope * slope);
+	}
+}
+
+batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
+                                    const double *knots, size_t points, surface_samples *out)
+{
+	enum { POINTS_MOST = 16 };
+	double nodes[POINTS_MOST];
+	double weights[POINTS_MOST];
+	if (points < 1 || points > POINTS_MOST)
+		return batten_fail(context, BATTEN_USAGE, "%zu Gauss points a span: 1 to %d are expected",
+		                   points, POINTS_MOST);
+	find_gauss_points(points, nodes, weights);
+	size_t spans = 0;
+	for (size_t span = order - 1; span < poles; span++)
+		spans += knots[span] < knots[span + 1];
+	const batten_status status = allocate(context, order, poles, spans * points, out);
+	size_t n = 0;
+	for (size_t span = order - 1; span < poles && status == BATTEN_OK; span++) {
+		if (!(knots[span] < knots[span + 1]))
+			continue;
+		const double half = 0.5 * (knots[span + 1] - knots[span]);
+		for (size_t p = 0; p < points; p++, n++)
+			fill(knots, span, knots[span] + half * (1.0 + nodes[p]), half * weights[p], n, out);
+	}
+	return status;
+}

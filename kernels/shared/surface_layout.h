@@ -1,0 +1,60 @@
+/* How surfaces and what is known of them lie in memory: the same numbers for the host, the C path and
+ * the kernel. Value v of lane l is number v * lanes + l. */
+#ifndef BATTEN_SHARED_SURFACE_LAYOUT_H
+#define BATTEN_SHARED_SURFACE_LAYOUT_H
+
+/* What a launch gives back: values of each point, or sums of each line (v fixed). */
+#define SURFACE_OUTPUT_POSITION 0
+#define SURFACE_OUTPUT_CURVATURE 1
+#define SURFACE_OUTPUT_EVERYTHING 2
+#define SURFACE_OUTPUT_ENERGY 3
+
+enum { SURFACE_POSITION_COUNT = 3, SURFACE_CURVATURE_COUNT = 2 };
+
+/* Everything, in this order; three numbers a vector. */
+enum {
+	SURFACE_AT = 0,
+	SURFACE_BY_U = 3,
+	SURFACE_BY_V = 6,
+	SURFACE_BY_UU = 9,
+	SURFACE_BY_UV = 12,
+	SURFACE_BY_VV = 15,
+	SURFACE_FIRST_UU = 18, /* E, F, G */
+	SURFACE_FIRST_UV,
+	SURFACE_FIRST_VV,
+	SURFACE_AREA,
+	SURFACE_NORMAL,
+	SURFACE_SECOND_UU = SURFACE_NORMAL + 3, /* e, f, g */
+	SURFACE_SECOND_UV,
+	SURFACE_SECOND_VV,
+	SURFACE_GAUSS,
+	SURFACE_MEAN,
+	SURFACE_K1,
+	SURFACE_K2,
+	SURFACE_BENDING,
+	SURFACE_EVERYTHING_COUNT
+};
+
+/* Sums of a line, each weighted along u; the weight of the line itself is the host's. */
+enum {
+	SURFACE_SUM_BENDING,
+	SURFACE_SUM_MEAN,
+	SURFACE_SUM_GAUSS,
+	SURFACE_SUM_AREA,
+	SURFACE_SUM_SINGULAR, /* a number of points */
+	SURFACE_SUM_COUNT
+};
+
+/* The mean curvature a point without a normal gets: no real one is as large. */
+#define SURFACE_NO_NORMAL 3e38
+
+/* Two directions closer than this, in radians, or an area element this much smaller than the net's
+ * own, are rounding: there is no normal. */
+#define SURFACE_ANGLE_F64 1e-10
+#define SURFACE_ANGLE_F32 1e-5
+
+/* One sample of a direction in its table: `order` values of the basis, of its first and of its second
+ * derivative, and the weight in an integral. */
+#define SURFACE_TABLE_SIZE(order) (3 * (order) + 1)
+
+#endif

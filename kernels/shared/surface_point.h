@@ -1,0 +1,170 @@
+/* One point of a surface: curvatures from derivatives (Letcher 4.2-4.3; thesis 4.4). */
+#ifndef BATTEN_SHARED_SURFACE_POINT_H
+#define BATTEN_SHARED_SURFACE_POINT_H
+
+#include "dialect.h"
+#include "surface_layout.h"
+
+/* a * b + c rounded once. Correct on every device, so strict arithmetic may use it. */
+#if defined(BATTEN_DIALECT_C) && !BATTEN_DOUBLE
+#define FUSED(a, b, c) fmaf(a, b, c)
+#else
+#define FUSED(a, b, c) fma(a, b, c)
+#endif
+
+#if BATTEN_DOUBLE
+#define SURFACE_ANGLE LITERAL(SURFACE_ANGLE_F64)
+#else
+#define SURFACE_ANGLE LITERAL(SURFACE_ANGLE_F32)
+#endif
+
+typedef struct surface_triple {
+	real x, y, z;
+} surface_triple;
+
+/* A point and its derivatives. */
+typedef struct surface_jet {
+	surface_triple at, u, v, uu, uv, vv;
+} surface_jet;
+
+/* The weight of a rational surface there and its derivatives. */
+typedef struct surface_weight {
+	real at, u, v, uu, uv, vv;
+} surface_weight;
+
+/* What a normal makes known. regular: there is one; without it all the rest is 0. */
+typedef struct surface_shape {
+	real first_uu, first_uv, first_vv; /* known without a normal too */
+	surface_triple normal;
+	real area, second_uu, second_uv, second_vv, gauss, mean, bending;
+	mask regular;
+} surface_shape;
+
+SHARED_FUNCTION surface_triple triple_zero(void)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const surface_triple t = { zero, zero, zero };
+	return t;
+}
+
+/* factor * a + b */
+SHARED_FUNCTION surface_triple triple_add(real factor, surface_triple a, surface_triple b)
+{
+	const surface_triple t = { FUSED(factor, a.x, b.x), FUSED(factor, a.y, b.y),
+		                       FUSED(factor, a.z, b.z) };
+	return t;
+}
+
+SHARED_FUNCTION surface_triple triple_scale(real factor, surface_triple a)
+{
+	const surface_triple t = { factor * a.x, factor * a.y, factor * a.z };
+	return t;
+}
+
+SHARED_FUNCTION real triple_inner(surface_triple a, surface_triple b)
+{
+	return FUSED(a.x, b.x, FUSED(a.y, b.y, a.z * b.z));
+}
+
+SHARED_FUNCTION surface_triple triple_outer(surface_triple a, surface_triple b)
+{
+	const surface_triple t = { FUSED(a.y, b.z, -(a.z * b.y)), FUSED(a.z, b.x, -(a.x * b.z)),
+		                       FUSED(a.x, b.y, -(a.y * b.x)) };
+	return t;
+}
+
+/* Homogeneous coordinates to a point and its derivatives (Letcher 4.10), by the product rule. */
+SHARED_FUNCTION surface_triple surface_divide_at(surface_triple at, real weight)
+{
+	return triple_scale(SPREAD(LITERAL(1.0)) / weight, at);
+}
+
+SHARED_FUNCTION surface_jet surface_divide(surface_jet h, surface_weight w)
+{
+	const real inverse = SPREAD(LITERAL(1.0)) / w.at;
+	const real two = SPREAD(LITERAL(2.0));
+	surface_jet j;
+	j.at = triple_scale(inverse, h.at);
+	j.u = triple_scale(inverse, triple_add(-w.u, j.at, h.u));
+	j.v = triple_scale(inverse, triple_add(-w.v, j.at, h.v));
+	j.uu = triple_add(-w.uu, j.at, triple_add(-(two * w.u), j.u, h.uu));
+	j.uv = triple_add(-w.uv, j.at, triple_add(-w.u, j.v, triple_add(-w.v, j.u, h.uv)));
+	j.vv = triple_add(-w.vv, j.at, triple_add(-(two * w.v), j.v, h.vv));
+	j.uu = triple_scale(inverse, j.uu);
+	j.uv = triple_scale(inverse, j.uv);
+	j.vv = triple_scale(inverse, j.vv);
+	return j;
+}
+
+/* least_area: the smallest |by_v x by_u| that is not rounding, squared. */
+SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real two = SPREAD(LITERAL(2.0));
+	const real angle = SPREAD(SURFACE_ANGLE * SURFACE_ANGLE);
+	surface_shape s;
+	s.first_uu = triple_inner(j.u, j.u);
+	s.first_uv = triple_inner(j.u, j.v);
+	s.first_vv = triple_inner(j.v, j.v);
+	const surface_triple normal = triple_outer(j.v, j.u);
+	const real square = triple_inner(normal, normal);
+	/* Comparisons that NaN fails: derivatives too large for the precision give no normal. */
+	s.regular = (square > least_area) & (square > angle * (s.first_uu * s.first_vv));
+	/* Root and division side by side: neither waits for the other. */
+	const real safe = CHOOSE(s.regular, square, one);
+	const real area = SQUARE_ROOT(safe);
+	const real inverse2 = one / safe;
+	const real inverse = area * inverse2;
+	const real e = triple_inner(normal, j.uu) * inverse;
+	const real f = triple_inner(normal, j.uv) * inverse;
+	const real g = triple_inner(normal, j.vv) * inverse;
+	const real gauss = FUSED(e, g, -(f * f)) * inverse2;
+	const real mean = FUSED(e, s.first_vv, FUSED(g, s.first_uu, -((two * f) * s.first_uv))) *
+	                  (SPREAD(LITERAL(0.5)) * inverse2);
+	const real bending = FUSED(mean * SPREAD(LITERAL(4.0)), mean, -(two * gauss));
+	s.regular = s.regular & (bending - bending == zero);
+	s.normal.x = CHOOSE(s.regular, normal.x * inverse, zero);
+	s.normal.y = CHOOSE(s.regular, normal.y * inverse, zero);
+	s.normal.z = CHOOSE(s.regular, normal.z * inverse, zero);
+	s.area = CHOOSE(s.regular, area, zero);
+	s.second_uu = CHOOSE(s.regular, e, zero);
+	s.second_uv = CHOOSE(s.regular, f, zero);
+	s.second_vv = CHOOSE(s.regular, g, zero);
+	s.gauss = CHOOSE(s.regular, gauss, zero);
+	s.mean = CHOOSE(s.regular, mean, zero);
+	s.bending = CHOOSE(s.regular, bending, zero);
+	return s;
+}
+
+/* Half the difference of the principal curvatures. */
+SHARED_FUNCTION real surface_spread_of(surface_shape s)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real square = FUSED(s.mean, s.mean, -s.gauss);
+	return SQUARE_ROOT(CHOOSE(square > zero, square, zero));
+}
+
+/* The mean curvature as it is stored. */
+SHARED_FUNCTION real surface_mark(surface_shape s)
+{
+	return CHOOSE(s.regular, s.mean, SPREAD(LITERAL(SURFACE_NO_NORMAL)));
+}
+
+/* What a span of an integral adds up; all 0 before the first point. */
+typedef struct surface_sums {
+	real bending, mean, gauss, area, singular;
+} surface_sums;
+
+SHARED_FUNCTION void surface_sums_add(surface_sums *sums, surface_shape s, scalar weight)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real area = SPREAD(weight) * s.area;
+	sums->bending = FUSED(s.bending, area, sums->bending);
+	sums->mean = FUSED(s.mean * s.mean, area, sums->mean);
+	sums->gauss = FUSED(CHOOSE(s.gauss < zero, -s.gauss, s.gauss), area, sums->gauss);
+	sums->area += area;
+	sums->singular += CHOOSE(s.regular, zero, SPREAD(LITERAL(1.0)));
+}
+
+#endif

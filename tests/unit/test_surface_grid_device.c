@@ -1,0 +1,89 @@
+/* Batches of surfaces on devices: bits of the C path in the default shapes, failing devices. */
+#include "support/surface_case.h"
+
+#include "device/device.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void test_default_shapes_equal_the_c_path(void **state)
+{
+	(void)state;
+	for (int rational = 0; rational < 2; rational++) {
+		surface_case c = surface_case_open(4, 4, rational);
+		for (int f32 = 0; f32 < 2; f32++) {
+			const batten_surface_batch_options options = surface_case_options(
+				0, f32 ? BATTEN_F32 : BATTEN_F64, BATTEN_SURFACE_EVERYTHING);
+			surface_case_compare(&c, &options);
+		}
+		surface_case_close(&c);
+	}
+}
+
+/* Two devices share one queue. */
+static void test_all_devices(void **state)
+{
+	(void)state;
+	surface_case c = surface_case_open(4, 4, false);
+	const batten_surface_batch_options options = surface_case_options(
+		BATTEN_DEVICE_AUTO, BATTEN_F64, BATTEN_SURFACE_EVERYTHING);
+	surface_case_compare(&c, &options);
+	surface_case_close(&c);
+}
+
+static batten_status run_energies(const surface_case *c, int device,
+                                  batten_surface_energies *energies, batten_search_run *run)
+{
+	const batten_surface_batch_options options = surface_case_options(device, BATTEN_F64,
+	                                                                  BATTEN_SURFACE_CURVATURE);
+	memset(energies, 0, SURFACE_CASE_COUNT * sizeof *energies);
+	return batten_surface_energy_batch(
+		c->context, c->count, (const batten_surface *const *)c->surfaces, &options, energies, run);
+}
+
+/* A device that fails gives its surfaces back: with `auto` they are done all the same and a warning
+ * says so, with an index the failure is reported. */
+static void test_failing_device_gives_back(void **state)
+{
+	(void)state;
+	surface_case c = surface_case_open(3, 3, false);
+	batten_surface_energies known[SURFACE_CASE_COUNT];
+	batten_surface_energies found[SURFACE_CASE_COUNT];
+	batten_search_run run;
+	size_t warned = 0;
+	assert_int_equal(run_energies(&c, BATTEN_DEVICE_REFERENCE, known, &run), BATTEN_OK);
+	assert_string_equal(run.device, "reference");
+	assert_int_equal(run_energies(&c, BATTEN_DEVICE_AUTO, found, &run), BATTEN_OK);
+	for (unsigned long k = 1; k <= 24; k++) {
+		(void)device_fail_call(k);
+		const batten_status status = run_energies(&c, BATTEN_DEVICE_AUTO, found, &run);
+		(void)device_fail_call(0);
+		assert_int_equal(status, BATTEN_OK);
+		assert_memory_equal(found, known, sizeof known);
+		warned += run.warning[0] != '\0';
+	}
+	assert_true(warned >= 10);
+	(void)device_fail_call(1);
+	assert_int_equal(run_energies(&c, 0, found, &run), BATTEN_DEVICE);
+	(void)device_fail_call(0);
+	assert_int_equal(run_energies(&c, 7, found, &run), BATTEN_DEVICE);
+	assert_non_null(strchr(batten_context_error(c.context), '7'));
+	surface_case_close(&c);
+}
+
+int main(void)
+{
+	/* Before OpenCL is first opened. */
+	(void)setenv("POCL_DEVICES", "pthread pthread", 1);
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_default_shapes_equal_the_c_path),
+		cmocka_unit_test(test_all_devices),
+		cmocka_unit_test(test_failing_device_gives_back),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
