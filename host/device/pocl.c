@@ -102,6 +102,12 @@ bool device_pocl_is(const char *platform)
 	return strcmp(platform, "Portable Computing Language") == 0;
 }
 
+bool device_pocl_sees_machine(void)
+{
+	/* In a bare chroot without /sys, hwloc finds no memory: "Not enough memory to run", abort. */
+	return access("/sys/devices/system/cpu", R_OK) == 0;
+}
+
 bool device_pocl_has_linker(void)
 {
 	const char *path = getenv("PATH");

@@ -12,6 +12,9 @@ bool device_pocl_prepare(unsigned threads);
 /* Whether a platform of this name is PoCL. */
 bool device_pocl_is(const char *platform);
 
+/* Whether the system tells about its processors and memory; without it PoCL aborts the process. */
+bool device_pocl_sees_machine(void);
+
 /* Whether the linker that PoCL runs can be found. */
 bool device_pocl_has_linker(void);
 

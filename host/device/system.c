@@ -150,6 +150,11 @@ static bool list_platform(batten_context *context, device_system *system, cl_pla
 		return true;
 	}
 	clean_text(name, sizeof name, text);
+	if (device_pocl_is(name) && !device_pocl_sees_machine()) {
+		(void)snprintf(system->reason, sizeof system->reason,
+		               "%s: /sys, which it reads the processors from, is not mounted", name);
+		return true;
+	}
 	/* PoCL links what it compiled by running ld, and aborts the process when there is none. */
 	if (device_pocl_is(name) && !device_pocl_has_linker()) {
 		(void)snprintf(system->reason, sizeof system->reason,
