@@ -31,7 +31,7 @@ static void print_help(FILE *stream)
 		"  batten fair data/hulls/npl_parent.csv --out demo\n"
 		"\nexit codes: 0 done; 1 done, but not all converged; 2 usage; 3 input invalid;\n"
 		"4 device absent or lost; 5 kernel build or self-test failed; 6 input/output error or\n"
-		"a package missing; 70 internal error or out of memory; 75 interrupted\n",
+		"a package missing; 70 internal error or out of memory\n",
 		stream);
 }
 
