@@ -7,9 +7,12 @@ case $BATTEN in /*) ;; *) BATTEN=$PWD/$BATTEN ;; esac
 case $DATA in /*) ;; *) DATA=$PWD/$DATA ;; esac
 LC_ALL=C
 export LC_ALL
-hulls=$DATA/hulls
 folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
+# A name without blanks, whatever folder the project lies in.
+links=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder" "$links"' EXIT
+ln -s "$DATA/hulls" "$links/hulls" || exit 1
+hulls=$links/hulls
 trap 'exit 1' HUP INT TERM
 cd "$folder" || exit 1
 failures=0
@@ -80,7 +83,8 @@ prints()
 one_line()
 {
 	[ -s "$out" ] && fail "standard output is not empty: $(head -n 1 "$out")"
-	[ "$(grep -c '' "$talk")" -eq 1 ] && return
+	# A sanitizer that misses its symbolizer says so on lines of its own.
+	[ "$(grep -vc '^==[0-9]*==WARNING: .*symbolizer' "$talk")" -eq 1 ] && return
 	fail 'not one line on standard error, but:'
 	cat "$talk"
 }
