@@ -1,5 +1,7 @@
 #include "batch/search_plan.h"
 
+#include "core/number.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,13 +39,6 @@ static void lay_out_direction(const double *at, size_t count, double *stencil, d
 	}
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-	double left = *(const double *)a;
-	double right = *(const double *)b;
-	return (left > right) - (left < right);
-}
-
 /* The median spacing stands for a direction whose spacing is uneven. */
 static batten_status typical_spacing(batten_context *context, const double *at, size_t count,
                                      double *spacing)
@@ -53,7 +48,7 @@ static batten_status typical_spacing(batten_context *context, const double *at, 
 		return BATTEN_MEMORY;
 	for (size_t i = 0; i + 1 < count; i++)
 		steps[i] = at[i + 1] - at[i];
-	qsort(steps, count - 1, sizeof *steps, compare_numbers);
+	qsort(steps, count - 1, sizeof *steps, batten_number_compare);
 	*spacing = steps[(count - 1) / 2];
 	batten_release(context, steps);
 	return BATTEN_OK;

@@ -199,19 +199,9 @@ void batten_log(batten_context *context, batten_log_level level, const char *for
 	context->options.log(level, line, context->options.log_user);
 }
 
-static double seconds_of(clockid_t clock)
-{
-	struct timespec now = { 0 };
-	(void)clock_gettime(clock, &now);
-	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 double batten_wall_seconds(void)
 {
-	return seconds_of(CLOCK_MONOTONIC);
-}
-
-double batten_cpu_seconds(void)
-{
-	return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+	struct timespec now = { 0 };
+	(void)clock_gettime(CLOCK_MONOTONIC, &now);
+	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

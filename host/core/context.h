@@ -33,8 +33,7 @@ batten_status batten_fail_memory(batten_context *context);
 void batten_log(batten_context *context, batten_log_level level, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 
-/* CPU and wall seconds since some fixed moment. */
+/* Wall seconds since some fixed moment. */
 double batten_wall_seconds(void);
-double batten_cpu_seconds(void);
 
 #endif

@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -126,27 +125,4 @@ void batten_file_abandon(batten_context *context, batten_file *file)
 	batten_release(context, file->temporary);
 	batten_release(context, file->path);
 	*file = (batten_file){ 0 };
-}
-
-batten_status batten_folder_make(batten_context *context, const char *path)
-{
-	char copy[PATH_MAX];
-	if (strlen(path) >= sizeof copy || path[0] == '\0')
-		return batten_fail(context, BATTEN_IO, "%s: not a usable path", path);
-	(void)snprintf(copy, sizeof copy, "%s", path);
-	for (char *end = copy + 1;; end++) {
-		if (*end != '/' && *end != '\0')
-			continue;
-		char kept = *end;
-		*end = '\0';
-		if (mkdir(copy, 0777) != 0 && errno != EEXIST)
-			return batten_fail(context, BATTEN_IO, "%s: cannot be made: %s", copy, strerror(errno));
-		*end = kept;
-		if (kept == '\0')
-			break;
-	}
-	struct stat facts;
-	if (stat(path, &facts) != 0 || !S_ISDIR(facts.st_mode))
-		return batten_fail(context, BATTEN_IO, "%s: is no folder", path);
-	return BATTEN_OK;
 }

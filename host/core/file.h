@@ -21,7 +21,4 @@ batten_status batten_file_open(batten_context *context, const char *path, batten
 batten_status batten_file_commit(batten_context *context, batten_file *file);
 void batten_file_abandon(batten_context *context, batten_file *file);
 
-/* Makes a folder and those above it. Errors: IO. */
-batten_status batten_folder_make(batten_context *context, const char *path);
-
 #endif

@@ -88,6 +88,13 @@ char *batten_number_write(char buffer[BATTEN_NUMBER_SIZE], double value)
 	return buffer;
 }
 
+int batten_number_compare(const void *a, const void *b)
+{
+	const double left = *(const double *)a;
+	const double right = *(const double *)b;
+	return (left > right) - (left < right);
+}
+
 bool batten_size_multiply(size_t a, size_t b, size_t *product)
 {
 	return !__builtin_mul_overflow(a, b, product);

@@ -14,6 +14,9 @@ bool batten_number_read(const char *text, size_t length, double *out);
 /* Writes the shortest decimal that reads back exactly; "nan" and "inf" spelled so. Returns buffer. */
 char *batten_number_write(char buffer[BATTEN_NUMBER_SIZE], double value);
 
+/* Order of two doubles for qsort: ascending. */
+int batten_number_compare(const void *a, const void *b);
+
 /* a * b in *product; false when it overflows. */
 bool batten_size_multiply(size_t a, size_t b, size_t *product);
 

@@ -1,6 +1,9 @@
 #include "fairing/gross_errors.h"
 
+#include "core/number.h"
+
 #include "core/spline.h"
+#include "fairing/lines.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -59,11 +62,9 @@ static double off_cubic(const hull_line *line, size_t j)
 
 static double second_difference(const hull_line *line, size_t j)
 {
-	const double *x = line->along_m;
-	const double *y = line->value_m;
-	const double before = (y[j] - y[j - 1]) / (x[j] - x[j - 1]);
-	const double after = (y[j + 1] - y[j]) / (x[j + 1] - x[j]);
-	return (after - before) / (0.5 * (x[j + 1] - x[j - 1]));
+	double difference = 0.0;
+	lines_second_differences(3, line->along_m + j - 1, line->value_m + j - 1, &difference);
+	return difference;
 }
 
 /* One wrong value at j adds e, -(..) e, e to the second differences at j-1, j, j+1, with weights that
@@ -79,13 +80,6 @@ static bool shows_single_error(const hull_line *line, size_t j)
 	const double size = second_difference(line, j) / here;
 	return second_difference(line, j - 1) / aft / size > 0.25 &&
 	       second_difference(line, j + 1) / fore / size > 0.25;
-}
-
-static int compare_numbers(const void *a, const void *b)
-{
-	const double left = *(const double *)a;
-	const double right = *(const double *)b;
-	return (left > right) - (left < right);
 }
 
 static bool judged(const batten_hull *hull, bool waterline, size_t number, const hull_line *line,
@@ -106,7 +100,7 @@ static void examine(const batten_hull *hull, bool waterline, size_t number, cons
 			sorted[count++] = fabs(off_cubic(line, j));
 	if (count == 0)
 		return;
-	qsort(sorted, count, sizeof *sorted, compare_numbers);
+	qsort(sorted, count, sizeof *sorted, batten_number_compare);
 	const double median = sorted[count / 2];
 	for (size_t j = 0; j < line->count; j++) {
 		if (line->place[j] == SIZE_MAX || !judged(hull, waterline, number, line, j))

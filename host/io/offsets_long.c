@@ -1,6 +1,8 @@
 /* The long layouts: one row a point, rows of a line together. Coordinates that two or more lines
  * share become the grid, all other points are line ends (hull.h). */
 #include "io/offsets_frame.h"
+
+#include "core/number.h"
 #include "io/offsets_parts.h"
 
 #include <stdlib.h>
@@ -184,13 +186,6 @@ static batten_status read_rows(struct offsets_scan *scan, struct list *list)
  * The grid
  * --------------------------------------------------------------------------------------------- */
 
-static int compare_numbers(const void *a, const void *b)
-{
-	double p = *(const double *)a;
-	double q = *(const double *)b;
-	return (p > q) - (p < q);
-}
-
 /* No line has a coordinate twice, so what occurs twice occurs on two lines. */
 static batten_status find_shared(const struct offsets_scan *scan, struct list *list)
 {
@@ -200,7 +195,7 @@ static batten_status find_shared(const struct offsets_scan *scan, struct list *l
 		return BATTEN_MEMORY;
 	for (size_t i = 0; i < count; i++)
 		all[i] = list->points[i].along_m;
-	qsort(all, count, sizeof *all, compare_numbers);
+	qsort(all, count, sizeof *all, batten_number_compare);
 	size_t shared = 0;
 	for (size_t i = 0; i < count;) {
 		size_t next = i + 1;
@@ -224,7 +219,7 @@ static batten_status find_shared(const struct offsets_scan *scan, struct list *l
 static size_t find_place(const struct list *list, double along_m)
 {
 	const double *found = bsearch(&along_m, list->shared_m, list->shared_count,
-	                              sizeof *list->shared_m, compare_numbers);
+	                              sizeof *list->shared_m, batten_number_compare);
 	return found ? (size_t)(found - list->shared_m) : SIZE_MAX;
 }
 

@@ -22,14 +22,6 @@ void batten_picture_options_default(batten_picture_options *options)
 	};
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-	double x, y;
-	memcpy(&x, a, sizeof x);
-	memcpy(&y, b, sizeof y);
-	return (x > y) - (x < y);
-}
-
 /* The next larger of a few round numbers, so that the ticks of the colour bar are round as well. */
 static double round_up(double value)
 {
@@ -53,7 +45,7 @@ static batten_status choose_scale(batten_context *context, const batten_hull *hu
 	for (size_t node = 0; node < hull_node_count(hull); node++)
 		if (grid->origin[node] == GRID_CURVATURE_OWN && isfinite(grid->mean_per_m[node]))
 			sizes[count++] = fabs(grid->mean_per_m[node]);
-	qsort(sizes, count, sizeof *sizes, compare_numbers);
+	qsort(sizes, count, sizeof *sizes, batten_number_compare);
 	double value = count ? sizes[(size_t)(scale_part * (double)(count - 1))] : 0.0;
 	batten_release(context, sizes);
 	double half_beam = batten_hull_half_beam_m(hull);
