@@ -67,7 +67,7 @@ static bool workload_create(size_t count, double w2, workload *w)
 /* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
 static batten_status timed(const bench_settings *settings, const workload *w, int device,
                            batten_precision precision, double *y, batten_search_result *results,
-                           batten_search_run *run, bool wall, double *seconds)
+                           batten_run *run, bool wall, double *seconds)
 {
 	batten_search_options options;
 	batten_search_options_default(&options);
@@ -86,7 +86,7 @@ static batten_status run_case(const bench_settings *settings, double raw_w2,
 {
 	workload w;
 	bench_pairs pairs;
-	batten_search_run run;
+	batten_run run;
 	bench_row row = { .precision = precision, .unit = "us per hull", .reference = "reference" };
 	/* Literature quotes w2 in raw metres; dimensionless it is h^4 = 0.4096 times that. */
 	if (!workload_create(settings->full ? 64 : 16, raw_w2 * 0.4096, &w)) {

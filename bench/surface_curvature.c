@@ -76,7 +76,7 @@ static batten_status workload_create(const bench_settings *settings, bool energy
 
 /* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
 static batten_status timed(const bench_settings *settings, const workload *w, int device,
-                           batten_precision precision, batten_search_run *run, double *seconds)
+                           batten_precision precision, batten_run *run, double *seconds)
 {
 	const bool wall = !bench_is_cpu(settings);
 	const bool known = device == BATTEN_DEVICE_REFERENCE;
@@ -111,7 +111,7 @@ static batten_status run_case(const bench_settings *settings, bool energy,
 {
 	workload w;
 	bench_pairs pairs;
-	batten_search_run run = { .strict = true };
+	batten_run run = { .strict = true };
 	bench_row row = { .precision = precision, .unit = "ns per point", .reference = "reference" };
 	double seconds = 0.0;
 	batten_status status = workload_create(settings, energy, &w);

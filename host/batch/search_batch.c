@@ -46,7 +46,7 @@ static batten_status run_on_reference(batch_work *work)
 	search_reference reference = { 0 };
 	batten_status status = search_reference_create(b->plan, &reference);
 	size_t which = 0;
-	while (status == BATTEN_OK && search_queue_take(&work->queue, 1, &which) == 1)
+	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
 		search_reference_run(&reference, &b->problems[which],
 		                     b->y_m + which * b->plan->station_count * b->plan->waterline_count,
 		                     &b->results[which]);
@@ -100,19 +100,19 @@ static batten_status count_probes(const batch *b, size_t count)
 	return BATTEN_OK;
 }
 
-static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
+static batten_status run_batch(batch *b, size_t count, batten_run *run)
 {
 	batten_context *context = b->work.context;
 	size_t *order = batten_allocate(context, count, sizeof *order);
 	if (!order)
 		return BATTEN_MEMORY;
-	batten_status status = search_queue_create(context, order, order_problems(b, count, order),
-	                                           &b->work.queue);
+	batten_status status = work_queue_create(context, order, order_problems(b, count, order),
+	                                         &b->work.queue);
 	if (status == BATTEN_OK)
 		status = batch_work_run(&b->work, run);
 	if (status == BATTEN_OK)
 		status = count_probes(b, count);
-	search_queue_release(context, &b->work.queue);
+	work_queue_release(context, &b->work.queue);
 	batten_release(context, order);
 	return status;
 }
@@ -120,7 +120,7 @@ static batten_status run_batch(batch *b, size_t count, batten_search_run *run)
 batten_status batten_search_batch(batten_context *context, const batten_grid *grid, size_t count,
                                   const batten_search_problem *problems,
                                   const batten_search_options *options, double *y_m,
-                                  batten_search_result *results, batten_search_run *run)
+                                  batten_search_result *results, batten_run *run)
 {
 	batch b = { .work = { .context = context,
 		                  .open = open_engine,
@@ -130,7 +130,7 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 		        .problems = problems,
 		        .y_m = y_m,
 		        .results = results };
-	batten_search_run told = { .strict = true };
+	batten_run told = { .strict = true };
 	batten_status status = search_plan_create(context, grid, count, problems, options, &b.plan);
 	if (status != BATTEN_OK)
 		return status;

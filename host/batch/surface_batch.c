@@ -31,16 +31,16 @@ static batten_status run_on_reference(batch_work *work)
 	surface_reference reference = { 0 };
 	batten_status status = surface_reference_create(((const batch *)work)->plan, &reference);
 	size_t which = 0;
-	while (status == BATTEN_OK && search_queue_take(&work->queue, 1, &which) == 1)
+	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
 		surface_reference_run(&reference, which);
 	surface_reference_release(&reference);
 	return status;
 }
 
-batten_status surface_batch_run(const surface_plan *plan, batten_search_run *run)
+batten_status surface_batch_run(const surface_plan *plan, batten_run *run)
 {
 	batten_context *context = plan->context;
-	batten_search_run told = { .strict = true };
+	batten_run told = { .strict = true };
 	batch b = { .work = { .context = context,
 		                  .device = plan->device,
 		                  .open = open_engine,
@@ -56,10 +56,10 @@ batten_status surface_batch_run(const surface_plan *plan, batten_search_run *run
 		return BATTEN_MEMORY;
 	for (size_t s = 0; s < plan->count; s++)
 		order[s] = s;
-	status = search_queue_create(context, order, plan->count, &b.work.queue);
+	status = work_queue_create(context, order, plan->count, &b.work.queue);
 	if (status == BATTEN_OK && plan->count > 0)
 		status = batch_work_run(&b.work, &told);
-	search_queue_release(context, &b.work.queue);
+	work_queue_release(context, &b.work.queue);
 	batten_release(context, order);
 	if (status == BATTEN_OK && run)
 		*run = told;

@@ -5,6 +5,6 @@
 #include "batch/surface_plan.h"
 
 /* Fills the plan's values and singular. Errors: USAGE, DEVICE, KERNEL, MEMORY. */
-batten_status surface_batch_run(const surface_plan *plan, batten_search_run *run);
+batten_status surface_batch_run(const surface_plan *plan, batten_run *run);
 
 #endif

@@ -29,12 +29,12 @@ static batten_status run_on_device(batch_work *b, batch_engine *engine)
 	size_t *which = batten_allocate(b->context, most, sizeof *which);
 	batten_status status = which ? BATTEN_OK : BATTEN_MEMORY;
 	while (status == BATTEN_OK) {
-		const size_t count = search_queue_take(&b->queue, most, which);
+		const size_t count = work_queue_take(&b->queue, most, which);
 		if (count == 0)
 			break;
 		status = b->run(b, engine, which, count);
 		if (status != BATTEN_OK)
-			search_queue_give_back(&b->queue, which, count);
+			work_queue_give_back(&b->queue, which, count);
 	}
 	batten_release(b->context, which);
 	return status;
@@ -60,20 +60,20 @@ static void run_workers(worker *workers, size_t count)
 			(void)pthread_join(workers[w].thread, NULL);
 }
 
-static void add_warning(batten_search_run *run, const char *text)
+static void add_warning(batten_run *run, const char *text)
 {
 	const size_t used = strlen(run->warning);
 	(void)snprintf(run->warning + used, sizeof run->warning - used, "%s%s", used ? "; " : "", text);
 }
 
-static void add_device(batten_search_run *run, const char *name)
+static void add_device(batten_run *run, const char *name)
 {
 	const size_t used = strlen(run->device);
 	(void)snprintf(run->device + used, sizeof run->device - used, "%s%s", used ? " + " : "", name);
 }
 
 static batten_status add_engine(batch_work *b, size_t index, worker *workers, size_t *count,
-                                batten_search_run *run)
+                                batten_run *run)
 {
 	batten_device device;
 	batch_engine *engine = NULL;
@@ -90,15 +90,14 @@ static batten_status add_engine(batch_work *b, size_t index, worker *workers, si
 }
 
 /* Every device that equals the C path bit for bit; one that does not is left out with a warning. */
-static void add_strict_devices(batch_work *b, worker *workers, size_t *count,
-                               batten_search_run *run)
+static void add_strict_devices(batch_work *b, worker *workers, size_t *count, batten_run *run)
 {
 	const char *reason = NULL;
 	const size_t devices = batten_device_count(b->context, &reason);
 	if (devices == 0)
 		add_warning(run, reason);
 	for (size_t i = 0; i < devices; i++) {
-		batten_search_run trial = { .strict = true };
+		batten_run trial = { .strict = true };
 		const batten_status status = add_engine(b, i, workers, count, &trial);
 		if (status != BATTEN_OK) {
 			add_warning(run, batten_context_error(b->context));
@@ -116,7 +115,7 @@ static void add_strict_devices(batch_work *b, worker *workers, size_t *count,
 }
 
 static void add_reference(batch_work *b, size_t items, worker *workers, size_t *count,
-                          batten_search_run *run)
+                          batten_run *run)
 {
 	size_t threads = b->context->options.threads;
 	if (threads > items)
@@ -128,8 +127,7 @@ static void add_reference(batch_work *b, size_t items, worker *workers, size_t *
 	add_device(run, "reference");
 }
 
-static batten_status choose_workers(batch_work *b, worker *workers, size_t *count,
-                                    batten_search_run *run)
+static batten_status choose_workers(batch_work *b, worker *workers, size_t *count, batten_run *run)
 {
 	const int device = b->device;
 	if (device >= 0)
@@ -145,7 +143,7 @@ static batten_status choose_workers(batch_work *b, worker *workers, size_t *coun
 }
 
 /* What devices gave back is finished by the C path when the choice was automatic. */
-static batten_status finish(batch_work *b, worker *workers, size_t count, batten_search_run *run)
+static batten_status finish(batch_work *b, worker *workers, size_t count, batten_run *run)
 {
 	batten_status first = BATTEN_OK;
 	for (size_t w = 0; w < count; w++) {
@@ -170,7 +168,7 @@ static batten_status finish(batch_work *b, worker *workers, size_t count, batten
 	return last.status;
 }
 
-static batten_status run_on(batch_work *work, worker *workers, batten_search_run *run)
+static batten_status run_on(batch_work *work, worker *workers, batten_run *run)
 {
 	batten_status status = choose_workers(work, workers, &work->worker_count, run);
 	if (status != BATTEN_OK)
@@ -182,7 +180,7 @@ static batten_status run_on(batch_work *work, worker *workers, batten_search_run
 	return status;
 }
 
-batten_status batch_work_run(batch_work *work, batten_search_run *run)
+batten_status batch_work_run(batch_work *work, batten_run *run)
 {
 	/* As many as there may be: one a device, or one a thread of the C path. */
 	const bool on_devices = work->device != BATTEN_DEVICE_REFERENCE;

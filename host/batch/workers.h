@@ -4,12 +4,12 @@
 #define BATTEN_BATCH_WORKERS_H
 
 #include "batch/engine.h"
-#include "batch/search_queue.h"
+#include "batch/work_queue.h"
 
 typedef struct batch_work {
 	batten_context *context;
-	int device;         /* as in the options of a batch */
-	search_queue queue; /* of what is to be done */
+	int device;       /* as in the options of a batch */
+	work_queue queue; /* of what is to be done */
 	size_t worker_count;
 	/* Makes the kernel ready on a device. */
 	batten_status (*open)(struct batch_work *work, size_t index, const batten_device *device,
@@ -24,6 +24,6 @@ typedef struct batch_work {
 } batch_work;
 
 /* Works the queue off and tells what ran it. Errors: USAGE (no such device), DEVICE, KERNEL, MEMORY. */
-batten_status batch_work_run(batch_work *work, batten_search_run *run);
+batten_status batch_work_run(batch_work *work, batten_run *run);
 
 #endif

@@ -151,7 +151,7 @@ static json_t *method_json(const fair_job *job)
 static json_t *search_json(const fair_job *job)
 {
 	const batten_search_result *result = batten_fairing_result(job->fairing);
-	const batten_search_run *run = batten_fairing_run(job->fairing);
+	const batten_run *run = batten_fairing_run(job->fairing);
 	json_t *object = json_object();
 	set(object, "status", json_string(batten_search_end_text(result->end)));
 	set(object, "iterations", count(result->iterations));

@@ -21,7 +21,7 @@ struct batten_fairing {
 	batten_replacement *replacements;
 	size_t replacement_count;
 	batten_search_result result;
-	batten_search_run run;
+	batten_run run;
 	batten_fairing_facts facts;
 };
 
@@ -279,7 +279,7 @@ const batten_search_result *batten_fairing_result(const batten_fairing *fairing)
 	return &fairing->result;
 }
 
-const batten_search_run *batten_fairing_run(const batten_fairing *fairing)
+const batten_run *batten_fairing_run(const batten_fairing *fairing)
 {
 	return &fairing->run;
 }

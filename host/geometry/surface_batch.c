@@ -184,7 +184,7 @@ static surface_plan plan_of(batten_context *context, size_t count, const surface
 
 /* Takes the tables of the plan along. */
 static batten_status run_plan(surface_plan *plan, const batten_surface *const *surfaces,
-                              batten_search_run *run)
+                              batten_run *run)
 {
 	surface_item *items = NULL;
 	batten_status status = surface_items_of(plan->context, plan->count, surfaces, plan, &items);
@@ -199,7 +199,7 @@ batten_status batten_surface_grid_batch(batten_context *context, size_t count,
                                         const batten_surface *const *surfaces,
                                         const batten_surface_samples *samples,
                                         const batten_surface_batch_options *options, double *values,
-                                        uint8_t *singular, batten_search_run *run)
+                                        uint8_t *singular, batten_run *run)
 {
 	static const int outputs[] = { [BATTEN_SURFACE_POSITION] = SURFACE_OUTPUT_POSITION,
 		                           [BATTEN_SURFACE_CURVATURE] = SURFACE_OUTPUT_CURVATURE,
@@ -230,7 +230,7 @@ batten_status batten_surface_grid_batch(batten_context *context, size_t count,
 batten_status batten_surface_energy_batch(batten_context *context, size_t count,
                                           const batten_surface *const *surfaces,
                                           const batten_surface_batch_options *options,
-                                          batten_surface_energies *energies, batten_search_run *run)
+                                          batten_surface_energies *energies, batten_run *run)
 {
 	batten_surface_batch_options chosen;
 	surface_topology t = { 0 };

@@ -399,12 +399,12 @@ typedef struct batten_search_result {
 } batten_search_result;
 
 /* What ran a batch. */
-typedef struct batten_search_run {
+typedef struct batten_run {
 	char device[128];  /* "reference" for the C path; several joined by " + " */
 	bool strict;       /* every device equals the C path bit for bit */
 	double seconds;    /* wall time of the searches, without building kernels */
 	char warning[256]; /* one line, "" when nothing is to be said */
-} batten_search_run;
+} batten_run;
 
 /* Runs count searches by the multilevel Hooke-Jeeves method (kernels/README.md). y_m is the caller's,
  * [count][waterlines][stations]; results [count]; run may be NULL. The result of a search does not
@@ -414,7 +414,7 @@ typedef struct batten_search_run {
 BATTEN_API batten_status batten_search_batch(batten_context *context, const batten_grid *grid,
                                              size_t count, const batten_search_problem *problems,
                                              const batten_search_options *options, double *y_m,
-                                             batten_search_result *results, batten_search_run *run);
+                                             batten_search_result *results, batten_run *run);
 
 /* ------------------------------------------------------------------------------------------------
  * Fairing a hull
@@ -467,7 +467,7 @@ BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairin
 BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
 BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
 BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
-BATTEN_API const batten_search_run *batten_fairing_run(const batten_fairing *fairing);
+BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
 
 typedef struct batten_fairing_facts {
 	double noise_m;        /* of the smoothed hull */
@@ -704,7 +704,7 @@ BATTEN_API batten_status batten_surface_grid_batch(batten_context *context, size
                                                    const batten_surface_samples *samples,
                                                    const batten_surface_batch_options *options,
                                                    double *values, uint8_t *singular,
-                                                   batten_search_run *run);
+                                                   batten_run *run);
 
 /* Integrals over a whole surface (thesis 4.4, Letcher 4.5); points where the normal does not exist
  * count nothing. */
@@ -722,7 +722,7 @@ BATTEN_API batten_status batten_surface_energy_batch(batten_context *context, si
                                                      const batten_surface *const *surfaces,
                                                      const batten_surface_batch_options *options,
                                                      batten_surface_energies *energies,
-                                                     batten_search_run *run);
+                                                     batten_run *run);
 
 /* ------------------------------------------------------------------------------------------------
  * Pictures

@@ -117,7 +117,7 @@ static void run_grid(const surface_case *c, const batten_surface_batch_options *
                      double *values, uint8_t *singular)
 {
 	batten_surface_samples samples = c->samples;
-	batten_search_run run;
+	batten_run run;
 	samples.u = c->u;
 	samples.v = c->v;
 	if (batten_surface_grid_batch(c->context, c->count, (const batten_surface *const *)c->surfaces,

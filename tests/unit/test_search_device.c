@@ -51,7 +51,7 @@ static void test_default_shapes_equal_the_c_path(void **state)
 
 /* Runs the first iterations of the case's searches as a batch on a device, or all. */
 static batten_status run_batch(const search_case *c, int device, double *y,
-                               batten_search_result *results, batten_search_run *run)
+                               batten_search_result *results, batten_run *run)
 {
 	batten_search_problem problems[EQUAL_COUNT];
 	search_equal_problems(c, problems);
@@ -66,7 +66,7 @@ static batten_status run_batch(const search_case *c, int device, double *y,
 typedef struct ends {
 	double *y, *known_y;
 	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
-	batten_search_run run;
+	batten_run run;
 } ends;
 
 static ends ends_create(const search_case *c)

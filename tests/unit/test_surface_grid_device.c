@@ -37,7 +37,7 @@ static void test_all_devices(void **state)
 }
 
 static batten_status run_energies(const surface_case *c, int device,
-                                  batten_surface_energies *energies, batten_search_run *run)
+                                  batten_surface_energies *energies, batten_run *run)
 {
 	const batten_surface_batch_options options = surface_case_options(device, BATTEN_F64,
 	                                                                  BATTEN_SURFACE_CURVATURE);
@@ -54,7 +54,7 @@ static void test_failing_device_gives_back(void **state)
 	surface_case c = surface_case_open(3, 3, false);
 	batten_surface_energies known[SURFACE_CASE_COUNT];
 	batten_surface_energies found[SURFACE_CASE_COUNT];
-	batten_search_run run;
+	batten_run run;
 	size_t warned = 0;
 	assert_int_equal(run_energies(&c, BATTEN_DEVICE_REFERENCE, known, &run), BATTEN_OK);
 	assert_string_equal(run.device, "reference");

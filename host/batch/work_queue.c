@@ -1,11 +1,11 @@
-#include "batch/search_queue.h"
+#include "batch/work_queue.h"
 
 #include <string.h>
 
-batten_status search_queue_create(batten_context *context, const size_t *order, size_t count,
-                                  search_queue *out)
+batten_status work_queue_create(batten_context *context, const size_t *order, size_t count,
+                                work_queue *out)
 {
-	search_queue queue = { .order = order, .count = count };
+	work_queue queue = { .order = order, .count = count };
 	queue.returned = batten_allocate(context, count, sizeof *queue.returned);
 	if (!queue.returned)
 		return BATTEN_MEMORY;
@@ -17,16 +17,16 @@ batten_status search_queue_create(batten_context *context, const size_t *order, 
 	return BATTEN_OK;
 }
 
-void search_queue_release(batten_context *context, search_queue *queue)
+void work_queue_release(batten_context *context, work_queue *queue)
 {
 	if (!queue->returned)
 		return;
 	(void)pthread_mutex_destroy(&queue->lock);
 	batten_release(context, queue->returned);
-	*queue = (search_queue){ 0 };
+	*queue = (work_queue){ 0 };
 }
 
-size_t search_queue_take(search_queue *queue, size_t most, size_t *taken)
+size_t work_queue_take(work_queue *queue, size_t most, size_t *taken)
 {
 	(void)pthread_mutex_lock(&queue->lock);
 	size_t count = 0;
@@ -38,7 +38,7 @@ size_t search_queue_take(search_queue *queue, size_t most, size_t *taken)
 	return count;
 }
 
-void search_queue_give_back(search_queue *queue, const size_t *taken, size_t count)
+void work_queue_give_back(work_queue *queue, const size_t *taken, size_t count)
 {
 	(void)pthread_mutex_lock(&queue->lock);
 	memcpy(queue->returned + queue->returned_count, taken, count * sizeof *taken);
