@@ -141,6 +141,8 @@ static double update_bends(const batten_curve *curve, const batten_curve_options
 			continue;
 		bend(curve, &options->ends[e], e == 0, bent);
 		double length = sqrt(dot(bent, bent));
+		if (!isfinite(length))
+			return INFINITY;
 		for (size_t c = 0; c < curve->dimension; c++) {
 			if (bent[c] != conditions[e][c].value)
 				change = fmax(change, fabs(bent[c] - conditions[e][c].value) / length);
@@ -179,7 +181,8 @@ static batten_status solve_splines(batten_curve *curve, const batten_curve_optio
 			status = clamp(curve, &options->ends[e], e == 0, conditions[e]);
 	}
 	double change = 1;
-	for (int turn = 0; turn < TURNS_MOST && change > 1e-14 && status == BATTEN_OK; turn++) {
+	for (int turn = 0;
+	     turn < TURNS_MOST && change > 1e-14 && isfinite(change) && status == BATTEN_OK; turn++) {
 		status = build_splines(curve, conditions, column);
 		if (status == BATTEN_OK)
 			change = update_bends(curve, options, conditions);
