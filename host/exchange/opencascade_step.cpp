@@ -22,16 +22,20 @@
 #include <StepBasic_SiUnitAndSolidAngleUnit.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_BSplineSurfaceWithKnots.hxx>
 #include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_Direction.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepGeom_HArray2OfCartesianPoint.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_HArray1OfRepresentationItem.hxx>
+#include <StepRepr_ItemDefinedTransformation.hxx>
 #include <StepRepr_MappedItem.hxx>
-#include <StepShape_ContextDependentShapeRepresentation.hxx>
+#include <StepRepr_RepresentationMap.hxx>
+#include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_GeometricSet.hxx>
 #include <StepShape_GeometricallyBoundedSurfaceShapeRepresentation.hxx>
@@ -40,6 +44,8 @@
 #include <TColStd_HArray1OfInteger.hxx>
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColStd_HArray2OfReal.hxx>
+
+#include <algorithm>
 
 namespace opencascade_module
 {
@@ -237,6 +243,57 @@ void read_step_surface(STEPControl_Reader &reader, const Interface_Graph &graph,
 	hand_over(sink, arrays);
 }
 
+/* Axes and origin of a placement; without them, the file's own. */
+bool placement_of(const Handle(StepRepr_RepresentationItem) & item, double out[9])
+{
+	const Handle(StepGeom_Axis2Placement3d)
+		place = Handle(StepGeom_Axis2Placement3d)::DownCast(item);
+	if (place.IsNull() || place->Location().IsNull() || place->Location()->NbCoordinates() != 3)
+		return false;
+	const double standard[] = { 0, 0, 1, 1, 0, 0 };
+	std::copy(standard, standard + 6, out + 3);
+	for (int c = 0; c < 3; c++) {
+		out[c] = place->Location()->CoordinatesValue(c + 1);
+		if (place->HasAxis() && place->Axis()->NbDirectionRatios() == 3)
+			out[3 + c] = place->Axis()->DirectionRatiosValue(c + 1);
+		if (place->HasRefDirection() && place->RefDirection()->NbDirectionRatios() == 3)
+			out[6 + c] = place->RefDirection()->DirectionRatiosValue(c + 1);
+	}
+	return true;
+}
+
+bool is_same_place(const Handle(StepRepr_RepresentationItem) & first,
+                   const Handle(StepRepr_RepresentationItem) & second)
+{
+	double a[9], b[9];
+	return placement_of(first, a) && placement_of(second, b) && std::equal(a, a + 9, b);
+}
+
+/* An entity that puts others elsewhere: an instance, a part of an assembly. */
+bool is_moved(const Handle(Standard_Transient) & entity)
+{
+	const Handle(StepRepr_MappedItem) item = Handle(StepRepr_MappedItem)::DownCast(entity);
+	if (!item.IsNull())
+		return item->MappingSource().IsNull() ||
+		       !is_same_place(item->MappingSource()->MappingOrigin(), item->MappingTarget());
+	const Handle(StepRepr_RepresentationRelationshipWithTransformation)
+		part = Handle(StepRepr_RepresentationRelationshipWithTransformation)::DownCast(entity);
+	if (part.IsNull())
+		return false;
+	const Handle(StepRepr_ItemDefinedTransformation)
+		way = part->TransformationOperator().ItemDefinedTransformation();
+	return way.IsNull() || !is_same_place(way->TransformItem1(), way->TransformItem2());
+}
+
+/* Whether damage to an entity would be damage to a surface or its scale. */
+bool matters(const Handle(Standard_Transient) & entity)
+{
+	return entity->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) ||
+	       entity->IsKind(STANDARD_TYPE(StepGeom_CartesianPoint)) ||
+	       entity->IsKind(STANDARD_TYPE(StepBasic_NamedUnit)) ||
+	       entity->IsKind(STANDARD_TYPE(StepBasic_MeasureWithUnit));
+}
+
 } // namespace
 
 void read_step(const char *path, const exchange_sink &sink)
@@ -252,11 +309,10 @@ void read_step(const char *path, const exchange_sink &sink)
 	kinds left_out;
 	for (int n = 1; n <= model->NbEntities(); n++) {
 		const Handle(Standard_Transient) entity = model->Entity(n);
-		if (entity->IsKind(STANDARD_TYPE(StepRepr_MappedItem)) ||
-		    entity->IsKind(STANDARD_TYPE(StepShape_ContextDependentShapeRepresentation)))
-			throw refusal{ "is an assembly, whose placements are not read: save it as one part" };
-		if (model->IsErrorEntity(n) && entity->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)))
-			throw refusal{ "the B-spline surface #" + std::to_string(model->IdentLabel(entity)) +
+		if (is_moved(entity))
+			throw refusal{ "is an assembly of parts that are moved: save it as one part" };
+		if (model->IsErrorEntity(n) && matters(entity))
+			throw refusal{ step_kind(entity) + " #" + std::to_string(model->IdentLabel(entity)) +
 				           " is damaged" };
 	}
 	for (int n = 1; n <= model->NbEntities(); n++) {
