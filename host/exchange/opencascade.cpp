@@ -171,7 +171,12 @@ static batten_status module_read(exchange_format format, const char *path,
                                  const exchange_sink *sink, char message[EXCHANGE_MESSAGE_SIZE])
 {
 	return guarded(message, [&] {
-		format == EXCHANGE_IGES ? read_iges(path, *sink) : read_step(path, *sink);
+		/* It is the file that says how much is needed. */
+		try {
+			format == EXCHANGE_IGES ? read_iges(path, *sink) : read_step(path, *sink);
+		} catch (const std::bad_alloc &) {
+			throw refusal{ "asks for more memory than there is: damaged?" };
+		}
 	});
 }
 
