@@ -51,11 +51,13 @@ libxxhash-dev
 opencl-c-headers|ocl-icd-opencl-dev
 libvulkan-dev
 glslang-tools
+g++ libocct-data-exchange-dev
 "
 # gcc libc6-dev: the compiler, and the C library's headers. cmake ninja-build pkg-config: the build.
 # jansson: JSON reports. cairo: line drawings, text on pictures. png: pictures. xxhash: keys of
 # compiled kernels. The headers of OpenCL and Vulkan: both libraries are opened at run time.
-# glslang-tools: shaders to SPIR-V.
+# glslang-tools: shaders to SPIR-V. g++ libocct-data-exchange-dev: IGES and STEP; batten builds without
+# them, too.
 
 run_packages="
 ocl-icd-libopencl1|nvidia-libopencl1
@@ -76,11 +78,12 @@ clang libclang-rt-dev|libclang-rt-14-dev
 clang-format clang-tidy
 vulkan-validationlayers
 libxml2-utils librsvg2-bin
+gmsh
 "
 # cmocka: unit tests. nlopt: the optimum that a search is compared with. random123: the noise of a
 # shipped hull, made again. clang: the second compiler, the kernels' syntax, and with libclang-rt
 # AddressSanitizer. clang-format clang-tidy: layout and lint. vulkan-validationlayers: misuse of Vulkan.
-# xmllint and rsvg-convert: SVG files.
+# xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and STEP files, as an independent program.
 
 is_installed()
 {

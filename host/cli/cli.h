@@ -58,10 +58,14 @@ batten_status cli_failure(const char *command, const batten_context *context, ba
 /* Makes one line of a text: control characters, as a path may have them, become '?'. */
 void cli_clean(char *line);
 
+/* Whether a path ends as a file of surfaces does, with a name before it. */
+bool cli_is_surface_file(const char *path);
+
 batten_status cli_fair(int argc, char **argv);
 batten_status cli_measure(int argc, char **argv);
 batten_status cli_curve(int argc, char **argv);
 batten_status cli_surface(int argc, char **argv);
+batten_status cli_convert(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);
 batten_status cli_bench(int argc, char **argv);

@@ -8,16 +8,18 @@
 
 static const cli_command command = {
 	.name = "surface",
-	.usage = "HULL.csv --net MxN [--out S.json] [OPTION ...]",
+	.usage = "HULL.csv --net MxN [--out FILE] [OPTION ...]",
 	.summary = "fits a B-spline surface to the offsets of a hull by least squares",
 	.example = "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.json\n"
+			   "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.igs\n"
 			   "  batten surface data/hulls/wigley.csv --net 3x3 --order 3x3 --json\n",
 	.notes =
 		"The net has M poles along the hull and N from keel to deck; its edges follow keel, stern,\n"
 		"stem and the tops of the sections. Edges in the centreplane keep y = 0. A net of as many\n"
 		"poles as a full table has stations and waterlines goes through every point. The deviation\n"
-		"is the distance of the offsets from the nearest point of the surface. S.json is described\n"
-		"in data/schema/surface.schema.json: metres, frame ap-fwd.\n",
+		"is the distance of the offsets from the nearest point of the surface. FILE ends in .json\n"
+		"(data/schema/surface.schema.json), or in .igs, .iges, .stp, .step: IGES and STEP for other\n"
+		"programs. All are in metres, frame ap-fwd.\n",
 };
 
 struct request {
@@ -79,7 +81,8 @@ static batten_status make_surface(const struct request *request, batten_context 
 	if (status == BATTEN_OK)
 		status = batten_hull_fit(context, hull, &request->fit, &surface, &deviation);
 	if (status == BATTEN_OK && request->out)
-		status = batten_surface_write(context, surface, request->out);
+		status = batten_surfaces_write(context, 1, (const batten_surface *const *)&surface,
+		                               request->out);
 	if (status != BATTEN_OK)
 		status = cli_failure("surface", context, status);
 	else if (request->common.json)
@@ -137,12 +140,11 @@ static batten_status read_request(struct request *request)
 		return cli_usage("surface", "--net: found '%s', expected MxN, as 13x13", request->net);
 	if (request->order && !read_pair(request->order, &fit->order_u, &fit->order_v))
 		return cli_usage("surface", "--order: found '%s', expected KxL, as 4x4", request->order);
-	if (request->out) {
-		const size_t length = strlen(request->out);
-		if (length < 6 || strcmp(request->out + length - 5, ".json") != 0)
-			return cli_usage("surface", "--out: found '%s', expected a name that ends in .json",
-			                 request->out);
-	}
+	if (request->out && !cli_is_surface_file(request->out))
+		return cli_usage("surface",
+		                 "--out: found '%s', expected a name that ends in .json, .igs, .iges, .stp "
+		                 "or .step",
+		                 request->out);
 	fit->hold_centreplane = !request->free_edges;
 	return request->rounded ? read_rounded(request->rounded, &fit->rounded) : BATTEN_OK;
 }
@@ -154,7 +156,7 @@ batten_status cli_surface(int argc, char **argv)
 	const cli_option options[] = {
 		{ "net", CLI_TEXT, &request.net, "MxN", "poles along the hull and from keel to deck" },
 		{ "order", CLI_TEXT, &request.order, "KxL", "orders, degree + 1, 2 to 8 (4x4)" },
-		{ "out", CLI_TEXT, &request.out, "S.json", "where the surface goes" },
+		{ "out", CLI_TEXT, &request.out, "FILE", "where the surface goes" },
 		{ "rounded", CLI_TEXT, &request.rounded, "EDGES",
 		  "edges that leave the centreplane square to it: keel,stern,stem" },
 		{ "free-edges", CLI_FLAG, &request.free_edges, NULL,

@@ -15,6 +15,7 @@ static const subcommand subcommands[] = {
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
 	{ "curve", cli_curve, "represent one line and measure how fair it is" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
+	{ "convert", cli_convert, "surfaces from one of JSON, IGES and STEP to another" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
 	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
 	{ "bench", cli_bench, "time the engine against a named reference" },
@@ -71,8 +72,9 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, curve, surface, devices, selftest, "
-		"bench\n",
+		"batten: found '%s', a command was expected: fair, measure, curve, surface, convert, "
+		"devices, selftest, bench
+		",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

@@ -614,6 +614,37 @@ BATTEN_API batten_status batten_surface_parse(batten_context *context, const cha
 BATTEN_API batten_status batten_surface_write(batten_context *context,
                                               const batten_surface *surface, const char *path);
 
+/* The surfaces of a file, and what was left out of it. */
+typedef struct batten_surfaces batten_surfaces;
+
+/* Reads surfaces by the ending of path: .json (one surface), .igs or .iges (IGES, entity 128), .stp or
+ * .step (STEP, B-spline surfaces with knots). IGES and STEP are read by OpenCASCADE, an optional
+ * package, in a child process that ends with the call. Any unit becomes metres; axes are taken as
+ * they are. Poles, knots and weights are the numbers of the file times its unit. A face is taken where
+ * it is the whole of its surface; trimmed ones, other entities, periodic surfaces and those beyond the
+ * limits of batten_surface_net are left out, each kind with a warning, in the log too. Errors: USAGE
+ * (another ending), MISSING (batten was built without OpenCASCADE), IO, INPUT (damaged, an assembly,
+ * or no surface to be had), MEMORY. */
+BATTEN_API batten_status batten_surfaces_read(batten_context *context, const char *path,
+                                              batten_surfaces **out);
+BATTEN_API void batten_surfaces_destroy(batten_surfaces *surfaces);
+
+/* Borrowed, in the order of the file; NULL beyond the count. */
+BATTEN_API size_t batten_surfaces_count(const batten_surfaces *surfaces);
+BATTEN_API const batten_surface *batten_surfaces_at(const batten_surfaces *surfaces, size_t i);
+
+/* What was left out, a line each (1000 at most). */
+BATTEN_API size_t batten_surfaces_warning_count(const batten_surfaces *surfaces);
+BATTEN_API const char *batten_surfaces_warning(const batten_surfaces *surfaces, size_t i);
+
+/* Writes count >= 1 surfaces in the format of the ending, as above: metres, frame ap-fwd, names, 17
+ * digits, so that every number reads back as it was, but those below 1e-99, which are written as 0.
+ * Errors: USAGE (another ending, several surfaces to .json, a weight below 1e-6 or knots spanning less
+ * than 1e-80 to the others), MISSING, IO, MEMORY, INTERNAL. */
+BATTEN_API batten_status batten_surfaces_write(batten_context *context, size_t count,
+                                               const batten_surface *const *surfaces,
+                                               const char *path);
+
 /* ------------------------------------------------------------------------------------------------
  * Surfaces on a grid, many at a time
  * --------------------------------------------------------------------------------------------- */

@@ -17,19 +17,20 @@ reference     shared
 batch         core device reference shared generated-kernels
 geometry      core hull batch shared
 io            core hull geometry
+exchange      core hull geometry io
 picture       core hull geometry shared generated-shaders
 ray           core hull geometry
 hydrostatics  core hull geometry batch shared
 variation     core hull geometry batch shared
 fairing       core hull geometry batch hydrostatics shared
-sweep         core hull geometry batch io picture ray hydrostatics variation fairing shared
+sweep         core hull geometry batch io exchange picture ray hydrostatics variation fairing shared
 bench
 cli           bench
 data
 oracle
 support       core hull device reference batch geometry io picture ray hydrostatics variation fairing
 support       oracle
-test          core hull device reference batch geometry io picture ray hydrostatics variation fairing
+test          core hull device reference batch geometry io exchange picture ray hydrostatics variation fairing
 test          sweep shared oracle support generated-kernels
 '
 
