@@ -59,7 +59,7 @@ static bool ends_with(const char *text, const char *end)
 static batten_status write_out(const curve_request *request, batten_context *context,
                                const batten_points *points, const curve_answer *answers)
 {
-	const batten_curve *curves[CURVES_MOST];
+	const batten_curve *curves[CURVES_MOST] = { NULL };
 	for (size_t k = 0; k < request->count; k++)
 		curves[k] = answers[k].curve;
 	batten_status status = BATTEN_OK;

@@ -52,9 +52,11 @@ static void bspline_derivatives(const batten_curve *curve, double t, double out[
 	double factor = 1;
 	bspline_curve_evaluate(&curve->bspline, (t - curve->bspline_first) * curve->bspline_scale, 3,
 	                       values);
-	for (size_t d = 0; d < 4; d++, factor *= curve->bspline_scale)
+	for (size_t d = 0; d < 4; d++) {
 		for (size_t c = 0; c < curve->dimension; c++)
 			out[d][c] = factor * values[d * curve->dimension + c];
+		factor *= curve->bspline_scale;
+	}
 }
 
 void curve_derivatives(const batten_curve *curve, double t, double out[4][3])

@@ -290,8 +290,9 @@ static void draw_header(const struct plot *plot)
 	for (size_t k = 0; k < plot->count; k++) {
 		char label[128];
 		paper_clean_text(plot->curves[k]->label, label, sizeof label);
+		size_t row = k / 4;
 		paper_text entry = { .x = 166.0 + 360.0 * (double)(k % 4),
-			                 .y = 92.0 + 30.0 * (double)(k / 4),
+			                 .y = 92.0 + 30.0 * (double)row,
 			                 .size = 20.0,
 			                 .width = 290.0,
 			                 .ink = ink_text };
@@ -306,7 +307,6 @@ static void draw_header(const struct plot *plot)
 
 static void draw_page(struct plot *plot)
 {
-	static const char *const names[] = { "", "y over x", "z over x" };
 	size_t views = plot->points->dimension - 1;
 	double height = (540.0 - 70.0 * (double)(views - 1)) / (double)views;
 	double longest = 0, arc = 0;
@@ -318,6 +318,7 @@ static void draw_page(struct plot *plot)
 	plot->needle = 0.06 * fmax(longest, 0.25 * plot->curves[0]->size) / plot->curvature_shown;
 	draw_header(plot);
 	for (size_t v = 0; v < views; v++) {
+		const char *name = v == 0 ? "y over x" : "z over x";
 		char title[96];
 		unsigned exaggeration = 1;
 		struct panel panel = { .frame = { 110.0, 180.0 + (height + 70.0) * (double)v, 1440.0,
@@ -325,9 +326,9 @@ static void draw_page(struct plot *plot)
 		fit_view(plot, &panel, v + 1, &exaggeration);
 		if (exaggeration > 1)
 			(void)snprintf(title, sizeof title, "%s (m), heights %u times; needles: curvature",
-			               names[v + 1], exaggeration);
+			               name, exaggeration);
 		else
-			(void)snprintf(title, sizeof title, "%s (m); needles: curvature", names[v + 1]);
+			(void)snprintf(title, sizeof title, "%s (m); needles: curvature", name);
 		draw_view(plot, &panel, v + 1, title);
 	}
 	struct panel panel = { .frame = { 110.0, 800.0, 1440.0, 300.0 },
