@@ -73,8 +73,7 @@ int main(int argc, char **argv)
 	(void)fprintf(
 		stderr,
 		"batten: found '%s', a command was expected: fair, measure, curve, surface, convert, "
-		"devices, selftest, bench
-		",
+		"devices, selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

@@ -93,7 +93,7 @@ static batten_status read_point(struct offsets_scan *scan, batten_points *points
 			scan, scan->line, 1, "found %zu cells, expected %zu as in the first row%s", found,
 			points->dimension, found > points->dimension ? " (a decimal comma?)" : "");
 	for (size_t c = 0; c < points->dimension && c < 3; c++) {
-		struct offsets_cell cell;
+		struct offsets_cell cell = { scan->row, 0, 1 };
 		double value = 0;
 		char expected[] = "a number for x";
 		expected[sizeof expected - 2] = *coordinates[c];

@@ -290,7 +290,7 @@ static void draw_header(const struct plot *plot)
 	for (size_t k = 0; k < plot->count; k++) {
 		char label[128];
 		paper_clean_text(plot->curves[k]->label, label, sizeof label);
-		const size_t row = k / 4;
+		size_t row = k / 4;
 		paper_text entry = { .x = 166.0 + 360.0 * (double)(k % 4),
 			                 .y = 92.0 + 30.0 * (double)row,
 			                 .size = 20.0,

@@ -82,7 +82,7 @@ static void circle(void **state)
 {
 	double error[2];
 	for (size_t turn = 0; turn < 2; turn++) {
-		size_t count = 17 << turn;
+		size_t count = (size_t)17 << turn;
 		double m[2 * 34];
 		for (size_t i = 0; i < count; i++) {
 			double angle = PI * (double)i / (double)(count - 1);
