@@ -1,0 +1,16 @@
+/* What integrals over surfaces need, one surface or many. */
+#ifndef BATTEN_GEOMETRY_SURFACE_QUADRATURE_H
+#define BATTEN_GEOMETRY_SURFACE_QUADRATURE_H
+
+#include "core/context.h"
+
+enum { SURFACE_GAUSS_MOST = 16 }; /* points a span and direction */
+
+/* Nodes and weights of Gauss and Legendre over -1..1. */
+void surface_gauss_points(size_t count, double *nodes, double *weights);
+
+/* The area of the net's box, as a square of its diagonal, over that of the parameters: what an area
+ * element is held against. */
+double surface_net_area(const batten_surface *surface);
+
+#endif
