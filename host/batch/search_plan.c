@@ -1,5 +1,6 @@
 #include "batch/search_plan.h"
 
+#include "core/difference.h"
 #include "core/number.h"
 
 #include <math.h>
@@ -15,27 +16,12 @@
 #define WEIGHT_LIMIT 1e100
 enum { COORDINATE_LIMIT = 4096, F32_NODE_LIMIT = 1 << 22 };
 
-/* Half the sum of the spacings to both neighbours; half a spacing at the ends. */
-static double cell_of(const double *at, size_t count, size_t i)
-{
-	double below = i > 0 ? at[i] - at[i - 1] : 0.0;
-	double above = i + 1 < count ? at[i + 1] - at[i] : 0.0;
-	return 0.5 * (below + above);
-}
-
 static void lay_out_direction(const double *at, size_t count, double *stencil, double *cell)
 {
 	for (size_t i = 0; i < count; i++) {
-		cell[i] = cell_of(at, count, i);
-		if (i == 0 || i + 1 == count)
-			continue; /* no term of the energy there; weights stay 0 */
-		double below = at[i] - at[i - 1];
-		double above = at[i + 1] - at[i];
-		double *w = stencil + i * STENCIL_SIZE;
-		w[0] = above / (below * (below + above));
-		w[1] = below / (above * (below + above));
-		w[2] = 2.0 / (below * (below + above));
-		w[3] = 2.0 / (above * (below + above));
+		cell[i] = difference_cell(at, count, i);
+		if (i > 0 && i + 1 < count) /* no term of the energy at the ends; weights stay 0 */
+			difference_weights(at + i, stencil + i * STENCIL_SIZE);
 	}
 }
 

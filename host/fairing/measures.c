@@ -1,9 +1,11 @@
 /* Every measure of a hull, by name: hydrostatics, fairness, energies, noise; and how far one hull
  * is from another. */
 #include "batten.h"
+#include "core/difference.h"
 #include "fairing/lines.h"
 #include "fairing/noise.h"
 #include "geometry/grid_curvature.h"
+#include "geometry/grid_variation.h"
 #include "hydrostatics/hydrostatics.h"
 
 #include <math.h>
@@ -110,6 +112,7 @@ static batten_status take_energies(batten_context *context, const batten_hull *h
 		out->energy_mean += mean * mean * area;
 		out->energy_gauss += fabs(grid->gauss_per_m2[i]) * area;
 	}
+	out->energy_mvc_per_m2 = grid_variation_sum(hull, grid);
 	grid_curvature_destroy(context, grid);
 	return BATTEN_OK;
 }
@@ -211,13 +214,6 @@ static batten_status check_same_table(batten_context *context, const batten_hull
 	return BATTEN_OK;
 }
 
-/* Half the distance between a coordinate's neighbours; at an end, to its one neighbour. */
-static double half_sum_spacing(const double *at, size_t count, size_t i)
-{
-	double low = at[i > 0 ? i - 1 : 0], high = at[i + 1 < count ? i + 1 : count - 1];
-	return 0.5 * (high - low);
-}
-
 batten_status batten_hull_closeness(batten_context *context, const batten_hull *hull,
                                     const batten_hull *reference, batten_closeness *out)
 {
@@ -232,10 +228,10 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 			continue;
 		double change = hull->y_m[i] - reference->y_m[i];
 		made.closeness_m4 += change * change *
-		                     half_sum_spacing(hull->x_m, hull->station_count,
-		                                      i % hull->station_count) *
-		                     half_sum_spacing(hull->z_m, hull->waterline_count,
-		                                      i / hull->station_count);
+		                     difference_cell(hull->x_m, hull->station_count,
+		                                     i % hull->station_count) *
+		                     difference_cell(hull->z_m, hull->waterline_count,
+		                                     i / hull->station_count);
 		made.cn_max_m = fmax(made.cn_max_m, fabs(change));
 		if (hull->y_m[i] > 0 || reference->y_m[i] > 0) {
 			squares += change * change;

@@ -1,6 +1,6 @@
 /* How fair a curve is: the definitions of thesis 4.4 that can be computed, Letcher 3.3. */
+#include "core/gauss.h"
 #include "geometry/curve.h"
-#include "geometry/gauss.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 #include "geometry/grid_curvature.h"
 
+#include "core/difference.h"
 #include "hull/hull.h"
 
 #include <math.h>
@@ -15,22 +16,14 @@ typedef struct stencils {
 	double *along_x, *along_z;
 } stencils;
 
-/* The weights of stencil_first() and stencil_second() that are exact for the parabola through three
- * neighbours. */
+/* The weights of stencil_first() and stencil_second(). */
 static double *weights_along(batten_context *context, const double *coordinate, size_t count)
 {
 	double *weights = batten_allocate(context, count, STENCIL_SIZE * sizeof *weights);
 	if (!weights)
 		return NULL;
-	for (size_t i = 1; i + 1 < count; i++) {
-		double before = coordinate[i] - coordinate[i - 1];
-		double after = coordinate[i + 1] - coordinate[i];
-		double *w = weights + STENCIL_SIZE * i;
-		w[0] = after / (before * (before + after));
-		w[1] = before / (after * (before + after));
-		w[2] = 2.0 / (before * (before + after));
-		w[3] = 2.0 / (after * (before + after));
-	}
+	for (size_t i = 1; i + 1 < count; i++)
+		difference_weights(coordinate + i, weights + STENCIL_SIZE * i);
 	return weights;
 }
 
@@ -68,8 +61,8 @@ static void take_derivatives(const batten_hull *hull, const stencils *weights, s
 	grid->y_zz_per_m[node] = slopes.y_zz;
 }
 
-/* Mean and Gauss curvature of a graph and its area element (Letcher 4.5). The outward normal is
- * (-y_x, 1, -y_z): with it a convex hull has y_xx, y_zz < 0, hence the sign of H. */
+/* Mean and Gauss curvature of a graph and its area element (Letcher 4.2-4.3), by the outward normal
+ * (-y_x, 1, -y_z): with it a convex hull has y_xx, y_zz < 0. */
 static void take_curvatures(const batten_hull *hull, size_t waterline, size_t station,
                             grid_curvature *grid)
 {
@@ -82,15 +75,15 @@ static void take_curvatures(const batten_hull *hull, size_t waterline, size_t st
 	double square = 1.0 + p * p + q * q;
 	double twice_mean = ((1.0 + q * q) * r - 2.0 * p * q * s + (1.0 + p * p) * t) /
 	                    (square * sqrt(square));
-	double mean = -0.5 * twice_mean;
+	double mean = 0.5 * twice_mean;
 	double gauss = (r * t - s * s) / (square * square);
 	double bending = twice_mean * twice_mean - 2.0 * gauss;
-	double half_x = 0.5 * (hull->x_m[station + 1] - hull->x_m[station - 1]);
-	double half_z = 0.5 * (hull->z_m[waterline + 1] - hull->z_m[waterline - 1]);
+	double cell_x = difference_cell(hull->x_m, hull->station_count, station);
+	double cell_z = difference_cell(hull->z_m, hull->waterline_count, waterline);
 	grid->mean_per_m[node] = mean;
 	grid->gauss_per_m2[node] = gauss;
 	grid->bending_per_m2[node] = bending > 0.0 ? bending : 0.0;
-	grid->area_m2[node] = sqrt(square) * half_x * half_z;
+	grid->area_m2[node] = sqrt(square) * cell_x * cell_z;
 }
 
 static void take_own_nodes(const batten_hull *hull, const stencils *weights, grid_curvature *grid)

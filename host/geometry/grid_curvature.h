@@ -22,8 +22,8 @@ typedef struct grid_curvature {
 	size_t station_count, waterline_count;
 	uint8_t *origin; /* grid_curvature_origin */
 	double *y_x, *y_z, *y_xx_per_m, *y_xz_per_m, *y_zz_per_m;
-	double *mean_per_m;     /* H = (k1 + k2) / 2, positive where the hull is convex to the water */
-	double *gauss_per_m2;   /* K = k1 k2 */
+	double *mean_per_m;   /* H = (k1 + k2) / 2 by the outward normal: a convex hull's is negative */
+	double *gauss_per_m2; /* K = k1 k2 */
 	double *bending_per_m2; /* k1^2 + k2^2 = 4 H^2 - 2 K, never negative */
 	double *area_m2;        /* dS = sqrt(1 + y_x^2 + y_z^2) dx dz, half-sum spacings; one side */
 	size_t own_count;       /* nodes with a curvature of their own */

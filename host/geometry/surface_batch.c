@@ -1,6 +1,8 @@
 /* batten_surface_grid_batch and batten_surface_energy_batch. */
 #include "geometry/surface_batch.h"
 
+#include "geometry/surface_quadrature.h"
+
 #include "batch/surface_batch.h"
 
 #include <math.h>
@@ -85,25 +87,6 @@ static double largest_of_table(const surface_samples *samples)
 	       largest_of(samples->table, samples->count * SURFACE_TABLE_SIZE(samples->order));
 }
 
-/* The area of the net's box, as a square of its diagonal, over that of the parameters. */
-static double area_of(const batten_surface *surface)
-{
-	double square = 0.0;
-	for (size_t c = 0; c < 3; c++) {
-		double least = surface->poles[c];
-		double most = least;
-		for (size_t n = 1; n < surface->count_u * surface->count_v; n++) {
-			least = fmin(least, surface->poles[3 * n + c]);
-			most = fmax(most, surface->poles[3 * n + c]);
-		}
-		square += (most - least) * (most - least);
-	}
-	const double *u = surface->knots_u;
-	const double *v = surface->knots_v;
-	return square / ((u[surface->count_u] - u[surface->order_u - 1]) *
-	                 (v[surface->count_v] - v[surface->order_v - 1]));
-}
-
 /* Squares of derivatives must stay finite in the precision. */
 static batten_status check_size(const surface_plan *plan, const batten_surface *surface, size_t s,
                                 double tables)
@@ -144,7 +127,7 @@ batten_status surface_items_of(batten_context *context, size_t count,
 		status = check_size(plan, surfaces[s], s, tables);
 		items[s] = (surface_item){ .poles_m = surfaces[s]->poles,
 			                       .weights = surfaces[s]->weights,
-			                       .area = area_of(surfaces[s]) };
+			                       .area = surface_net_area(surfaces[s]) };
 	}
 	if (status == BATTEN_OK)
 		*out = items;

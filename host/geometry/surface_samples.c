@@ -1,5 +1,6 @@
-#include "geometry/gauss.h"
+#include "core/gauss.h"
 #include "geometry/surface_batch.h"
+#include "geometry/surface_quadrature.h"
 
 #include <string.h>
 

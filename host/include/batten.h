@@ -240,6 +240,7 @@ BATTEN_API void batten_measure_options_default(batten_measure_options *options);
 	X(energy_bending, "sum of (k1^2 + k2^2) dS over the nodes inside the hull")                    \
 	X(energy_mean, "sum of H^2 dS")                                                                \
 	X(energy_gauss, "sum of |K| dS")                                                               \
+	X(energy_mvc_per_m2, "sum of ((dk1/de1)^2 + (dk2/de2)^2) dS, each along its own direction")    \
 	X(noise_m, "robust estimate of the noise of the offsets")                                      \
 	X(inflections, "sign changes of the second derivative over all waterlines and sections")
 

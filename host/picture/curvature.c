@@ -198,6 +198,9 @@ static batten_status make_mesh(batten_context *context, const batten_hull *hull,
 	batten_status status = grid_curvature_create(context, hull, &grid);
 	if (status != BATTEN_OK)
 		return status;
+	/* On the page convex is positive, as the bar says: a hull is mostly of the warm colours. */
+	for (size_t node = 0; node < hull_node_count(hull); node++)
+		grid->mean_per_m[node] = -grid->mean_per_m[node];
 	picture_field field = { .value = grid->mean_per_m, .known = grid->origin };
 	if (chart->scale_per_m == 0.0)
 		status = choose_scale(context, hull, grid, &chart->scale_per_m);

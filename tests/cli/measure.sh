@@ -9,8 +9,8 @@ cp "$out" wigley.json
 for name in lbp_m lwl_m beam_wl_m beam_max_m draft_m half_beam_m volume_m3 displacement_t \
 	wetted_surface_m2 waterplane_area_m2 midship_area_m2 max_section_area_m2 cb cp cm cwp cv cws \
 	lcb_pct_lbp_fwd xcb_from_ap_m lcf_pct_lbp_fwd xcf_from_ap_m kb_m bmt_m bml_m kmt_m kml_m i_t_m4 \
-	i_l_m4 tpc_t_per_cm fn_per_m2 fn_sections_per_m2 energy_bending energy_mean energy_gauss noise_m \
-	inflections; do
+	i_l_m4 tpc_t_per_cm fn_per_m2 fn_sections_per_m2 energy_bending energy_mean energy_gauss \
+	energy_mvc_per_m2 noise_m inflections; do
 	holds "$name in JSON" 'x == x' x="$(member wigley.json $name)"
 done
 [ "$(member wigley.json frame)" = ap-fwd ] || fail 'the frame is not named'
@@ -25,7 +25,7 @@ awk 'FNR == NR { gsub(/[",:]/, ""); value[$1] = $2; next }
 			print $1, $2, value[$1]
 		seen++
 	}
-	END { if (seen < 37) print seen, "measures in the table" }' wigley.json "$out" >differences
+	END { if (seen < 38) print seen, "measures in the table" }' wigley.json "$out" >differences
 [ -s differences ] && fail "the table differs from the JSON: $(cat differences)"
 
 # near FILE NAME VALUE TOLERANCE

@@ -83,7 +83,7 @@ static void parabolas_are_exact(void **state)
 			double q = 0.3 - 0.8 * waterlines[j] + 0.07 * stations[i];
 			double r = -0.1, s = 0.07, t = -0.8;
 			double g = 1 + p * p + q * q;
-			double mean = -((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / (2 * pow(g, 1.5));
+			double mean = ((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / (2 * pow(g, 1.5));
 			double gauss = (r * t - s * s) / (g * g);
 			assert_int_equal(grid->origin[node], GRID_CURVATURE_OWN);
 			near(grid->y_x[node], p, 1e-13);
@@ -123,7 +123,7 @@ static double sphere_error(batten_context *context, size_t intervals)
 	for (size_t node = 0; node < count * count; node++)
 		if (fabs(axis[node % count]) <= 0.75 && fabs(axis[node / count]) <= 0.75) {
 			assert_int_equal(grid->origin[node], GRID_CURVATURE_OWN);
-			worst = fmax(worst, fabs(grid->mean_per_m[node] - 0.5));
+			worst = fmax(worst, fabs(grid->mean_per_m[node] + 0.5));
 			worst = fmax(worst, fabs(grid->gauss_per_m2[node] - 0.25));
 		}
 	grid_curvature_destroy(context, grid);
@@ -133,7 +133,7 @@ static double sphere_error(batten_context *context, size_t intervals)
 	return worst;
 }
 
-/* Convex to the water is positive; the error falls by four when the spacing is halved. */
+/* Convex to the water is negative; the error falls by four when the spacing is halved. */
 static void spheres_converge(void **state)
 {
 	double errors[3];

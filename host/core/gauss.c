@@ -1,8 +1,8 @@
-#include "geometry/gauss.h"
+#include "core/gauss.h"
 
 #include <math.h>
 
-/* By Newton's method on the Legendre polynomial; the weights are 2 / ((1 - x^2) P'^2). */
+/* By Newton's method on the Legendre polynomial; its weights are 2 / ((1 - x^2) P'^2). */
 void gauss_points(size_t count, double *nodes, double *weights)
 {
 	const double pi = acos(-1.0);

@@ -1,0 +1,31 @@
+#include "core/difference.h"
+
+double difference_cell(const double *at, size_t count, size_t i)
+{
+	const double below = i > 0 ? at[i] - at[i - 1] : 0.0;
+	const double above = i + 1 < count ? at[i + 1] - at[i] : 0.0;
+	return 0.5 * (below + above);
+}
+
+void difference_weights(const double *at, double w[4])
+{
+	const double below = at[0] - at[-1];
+	const double above = at[1] - at[0];
+	w[0] = above / (below * (below + above));
+	w[1] = below / (above * (below + above));
+	w[2] = 2.0 / (below * (below + above));
+	w[3] = 2.0 / (above * (below + above));
+}
+
+/* Newton's form: 6 [0 1 2 3] + 6 [0 1 2 3 4] times the sum of the distances from the first four. */
+double difference_third(const double *at, const double *y, ptrdiff_t step)
+{
+	double table[5];
+	for (ptrdiff_t i = 0; i < 5; i++)
+		table[i] = y[(i - 2) * step];
+	for (ptrdiff_t degree = 1; degree < 5; degree++)
+		for (ptrdiff_t i = 4; i >= degree; i--)
+			table[i] = (table[i] - table[i - 1]) / (at[i - 2] - at[i - 2 - degree]);
+	const double away = (at[0] - at[-2]) + (at[0] - at[-1]) + (at[0] - at[1]);
+	return 6.0 * (table[3] + away * table[4]);
+}

@@ -1,0 +1,18 @@
+/* Differences over uneven coordinates: one direction of an offset table. */
+#ifndef BATTEN_CORE_DIFFERENCE_H
+#define BATTEN_CORE_DIFFERENCE_H
+
+#include <stddef.h>
+
+/* Half the sum of the spacings to both neighbours; half a spacing at the ends. */
+double difference_cell(const double *at, size_t count, size_t i);
+
+/* Weights of the first and second derivative at at[0] of the parabola through three neighbours: with
+ * d = y[0] - y[-1] and e = y[1] - y[0], w[0] d + w[1] e and w[3] e - w[2] d. */
+void difference_weights(const double *at, double w[4]);
+
+/* Third derivative at at[0] of the polynomial of degree 4 through five neighbours; the values are
+ * step apart in y. */
+double difference_third(const double *at, const double *y, ptrdiff_t step);
+
+#endif
