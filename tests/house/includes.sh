@@ -20,7 +20,7 @@ io            core hull geometry
 picture       core hull geometry shared generated-shaders
 ray           core hull geometry
 hydrostatics  core hull geometry batch shared
-variation     core hull geometry batch shared
+variation     core hull geometry batch hydrostatics shared
 fairing       core hull geometry batch hydrostatics shared
 sweep         core hull geometry batch io picture ray hydrostatics variation fairing shared
 bench
