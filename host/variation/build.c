@@ -49,6 +49,7 @@ static batten_status area_shift(const variation_parent *parent, const batten_var
 {
 	if (options->method == BATTEN_VARY_SWING) {
 		*out = variation_shift_swing(&parent->areas, &parent->span, p[0], parent->hull->lbp_m);
+		out->without_chord = options->thesis;
 		note(outcome, "dx_midship_m", variation_shift_at(out, parent->span.middle_m));
 		return BATTEN_OK;
 	}

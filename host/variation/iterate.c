@@ -200,8 +200,13 @@ static batten_status explain(const struct task *task)
 	char why[256], range[256];
 	size_t used = 0;
 	double least = 0, most = 0;
+	bool any = false;
 	(void)snprintf(why, sizeof why, "%s", batten_context_error(task->parent->context));
-	batten_status status = find_limit(task, 1, &most);
+	batten_status status = solve_part(task, 0, &any);
+	if (status == BATTEN_OK && !any) /* the parent is nothing for the method */
+		return batten_fail(task->parent->context, BATTEN_INPUT, "%s", why);
+	if (status == BATTEN_OK)
+		status = find_limit(task, 1, &most);
 	if (status == BATTEN_OK)
 		status = find_limit(task, -4, &least);
 	if (status != BATTEN_OK)

@@ -51,11 +51,16 @@ variation_shift variation_shift_swing(const struct spline *curve, const variatio
 		                      .swing_factor_m = centre_pct / 100 * length_m * middle / lever };
 }
 
+static double chord_end(const variation_shift *shift, double x_m)
+{
+	return shift->without_chord ? 0 : spline_value(shift->swing, x_m);
+}
+
 /* The curve over the straight line between its ends, so that the ends stay. */
 static double over_chord(const variation_shift *shift, double x_m)
 {
-	const double aft = spline_value(shift->swing, shift->span.aft_m);
-	const double fore = spline_value(shift->swing, shift->span.fore_m);
+	const double aft = chord_end(shift, shift->span.aft_m);
+	const double fore = chord_end(shift, shift->span.fore_m);
 	const double part = (x_m - shift->span.aft_m) / (shift->span.fore_m - shift->span.aft_m);
 	const double middle = spline_value(shift->swing, shift->span.middle_m);
 	return (spline_value(shift->swing, x_m) - aft - part * (fore - aft)) / middle;
@@ -64,8 +69,7 @@ static double over_chord(const variation_shift *shift, double x_m)
 static double swing_slope(const variation_shift *shift, double x_m)
 {
 	const variation_span *span = &shift->span;
-	const double chord = (spline_value(shift->swing, span->fore_m) -
-	                      spline_value(shift->swing, span->aft_m)) /
+	const double chord = (chord_end(shift, span->fore_m) - chord_end(shift, span->aft_m)) /
 	                     (span->fore_m - span->aft_m);
 	return shift->swing_factor_m * (spline_slope(shift->swing, x_m) - chord) /
 	       spline_value(shift->swing, span->middle_m);

@@ -35,9 +35,11 @@ typedef struct variation_half_shift {
 
 typedef struct variation_shift {
 	variation_span span;
-	/* swing: dx = factor * (A(x) - chord between its end values) / A amidships */
+	/* swing: dx = factor * (A(x) - chord between its end values) / A amidships; the thesis leaves
+	 * the chord out and only holds the ends */
 	const struct spline *swing; /* NULL for the other methods */
 	double swing_factor_m;
+	bool without_chord;
 	variation_half_shift aft, fore;
 	/* Parallel body amidships after the move: the section amidships stands from .. to. */
 	bool body, body_open; /* open: the thesis puts no section at its after end */
