@@ -61,6 +61,7 @@ void cli_clean(char *line);
 batten_status cli_fair(int argc, char **argv);
 batten_status cli_measure(int argc, char **argv);
 batten_status cli_surface(int argc, char **argv);
+batten_status cli_vary(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);
 batten_status cli_bench(int argc, char **argv);

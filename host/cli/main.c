@@ -13,6 +13,7 @@ typedef struct subcommand {
 static const subcommand subcommands[] = {
 	{ "fair", cli_fair, "fair a hull: faired offsets, report, pictures" },
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
+	{ "vary", cli_vary, "make a variant of a parent hull" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
 	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
@@ -70,8 +71,8 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, surface, devices, selftest, "
-		"bench\n",
+		"batten: found '%s', a command was expected: fair, measure, vary, surface, devices, "
+		"selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }
