@@ -59,11 +59,12 @@ static void add_point(variation_line *line, double x_m, double y_m)
 }
 
 /* The points of the hull, and the empty cells between and beyond them as 0; beyond an end off the
- * grid there is nothing. */
+ * grid there is nothing. Lines of long layouts are their points and nothing else. */
 static void take_points(const batten_hull *hull, const hull_line *points, variation_line *line)
 {
-	line->ends_aft = points->count > 0 && points->place[0] == SIZE_MAX;
-	line->ends_fore = points->count > 0 && points->place[points->count - 1] == SIZE_MAX;
+	const bool listed = hull->layout != HULL_LAYOUT_GRID;
+	line->ends_aft = listed || (points->count > 0 && points->place[0] == SIZE_MAX);
+	line->ends_fore = listed || (points->count > 0 && points->place[points->count - 1] == SIZE_MAX);
 	size_t next = 0;
 	for (size_t s = 0; s < hull->station_count; s++) {
 		while (next < points->count && points->along_m[next] < hull->x_m[s]) {
@@ -74,7 +75,7 @@ static void take_points(const batten_hull *hull, const hull_line *points, variat
 		if (next < points->count && points->place[next] == s) {
 			add_point(line, hull->x_m[s], points->value_m[next]);
 			next++;
-		} else if (!(aft && line->ends_aft) && !(fore && line->ends_fore)) {
+		} else if (!listed && !(aft && line->ends_aft) && !(fore && line->ends_fore)) {
 			add_point(line, hull->x_m[s], 0);
 		}
 	}

@@ -115,6 +115,14 @@ static double value_at(const variation_shift *shift, const variation_line *moved
 	return fmax(spline_value(spline, x_m), 0);
 }
 
+/* A station between the ends of a line of a long layout that has no point there. */
+static bool is_unlisted(const batten_hull *hull, const variation_line *line, uint8_t node,
+                        double x_m)
+{
+	return hull->layout != HULL_LAYOUT_GRID && node == BATTEN_NODE_OUTSIDE && line->count > 0 &&
+	       x_m > line->x_m[0] && x_m < line->x_m[line->count - 1];
+}
+
 static batten_status move_line(const variation_parent *parent, const variation_shift *shift,
                                const variation_line *line, double *y_m)
 {
@@ -128,8 +136,11 @@ static batten_status move_line(const variation_parent *parent, const variation_s
 	if (moved.count >= 2)
 		status = spline_create(parent->context, moved.count, moved.x_m, moved.y_m, SPLINE_NATURAL,
 		                       &spline);
+	const uint8_t *nodes = hull->nodes + (size_t)(line - parent->lines) * hull->station_count;
 	for (size_t s = 0; s < hull->station_count && status == BATTEN_OK; s++)
-		y_m[s] = moved.count >= 2 ? value_at(shift, &moved, &spline, hull->x_m[s]) : NAN;
+		y_m[s] = moved.count >= 2 && !is_unlisted(hull, line, nodes[s], hull->x_m[s])
+		             ? value_at(shift, &moved, &spline, hull->x_m[s])
+		             : NAN;
 	spline_destroy(&spline);
 	batten_release(parent->context, moved.x_m);
 	return status == BATTEN_USAGE ? BATTEN_INPUT : status;
