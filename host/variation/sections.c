@@ -37,18 +37,22 @@ static void take_offset(batten_hull *variant, const double *before, size_t node,
 		variant->nodes[node] = is ? BATTEN_NODE_GIVEN : BATTEN_NODE_OUTSIDE;
 }
 
+/* Half-breadths below this part of the half-beam are rounding, and 0. */
+#define ZERO_PART 1e-12
+
 batten_status variation_set_offsets(batten_hull *variant, const double *y_m)
 {
+	const double least = ZERO_PART * batten_hull_half_beam_m(variant);
 	const size_t count = hull_node_count(variant);
 	double *before = batten_allocate(variant->context, count, sizeof *before);
 	if (!before)
 		return BATTEN_MEMORY;
 	for (size_t i = 0; i < count; i++) {
 		before[i] = variant->y_m[i];
-		variant->y_m[i] = y_m[i] > 0 ? y_m[i] : 0;
+		variant->y_m[i] = y_m[i] > least ? y_m[i] : 0;
 	}
 	for (size_t i = 0; i < count; i++)
-		take_offset(variant, before, i, y_m[i]);
+		take_offset(variant, before, i, isnan(y_m[i]) ? NAN : variant->y_m[i]);
 	batten_release(variant->context, before);
 	size_t filled = 0;
 	return hull_fill_unknown(variant, &filled);

@@ -19,7 +19,9 @@ static void assert_same(const batten_hull *a, const batten_hull *b)
 	for (size_t w = 0; w < lines; w++)
 		assert_near(batten_hull_z_m(a)[w], batten_hull_z_m(b)[w], near, "z");
 	for (size_t i = 0; i < stations * lines; i++) {
-		assert_int_equal(batten_hull_nodes(a)[i], batten_hull_nodes(b)[i]);
+		if (batten_hull_nodes(a)[i] != batten_hull_nodes(b)[i])
+			fail_msg("%s: node %zu of %zu stations is %d, expected %d", batten_hull_name(a), i,
+			         stations, batten_hull_nodes(a)[i], batten_hull_nodes(b)[i]);
 		assert_near(batten_hull_y_m(a)[i], batten_hull_y_m(b)[i], near, "y");
 	}
 }
