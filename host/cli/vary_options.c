@@ -126,9 +126,10 @@ static batten_status read_average(vary_request *request)
 {
 	if (!request->with || !request->weight)
 		return cli_usage("vary", "average expects --with FILE[,FILE ...] and --weight W[,W ...]");
-	if (strlen(request->with) >= sizeof request->paths)
+	const size_t length = strlen(request->with);
+	if (length >= sizeof request->paths)
 		return cli_usage("vary", "--with: the list is too long");
-	(void)strcpy(request->paths, request->with);
+	memcpy(request->paths, request->with, length + 1);
 	for (char *path = request->paths; path && request->other_count < VARY_LIST_MOST;) {
 		request->other_paths[request->other_count++] = path;
 		path = strchr(path, ',');

@@ -19,7 +19,7 @@ batten_status monotone_create(batten_context *context, size_t count, const doubl
                               const double *to, bool straight, struct monotone *out);
 void monotone_destroy(struct monotone *map);
 
-/* map points to a struct monotone. */
-double monotone_value(double at, const void *map);
+/* user points to a struct monotone. */
+double monotone_value(double at, const void *user);
 
 #endif

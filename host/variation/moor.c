@@ -6,6 +6,9 @@
 /* Steps a half body is searched in before the root is closed in on. */
 enum { SEARCH_STEPS = 512, HALVINGS = 60 };
 
+/* Proportions this near are the same: where the curve has an extreme there, no sign changes. */
+#define SAME_PROPORTION 1e-12
+
 static batten_status check_shift(batten_context *context, const char *what,
                                  const variation_shift *shift)
 {
@@ -85,6 +88,8 @@ double variation_moor_place(const variation_moor *moor, double x_m, bool *found)
 	if (stays(span, x_m))
 		return x_m;
 	const double asked = proportion(&moor->areas, &moor->waterline, span->middle_m, x_m);
+	if (fabs(parent_proportion(moor, x_m) - asked) <= SAME_PROPORTION)
+		return x_m;
 	const double from = x_m < span->middle_m ? span->aft_m : span->middle_m;
 	const double to = x_m < span->middle_m ? span->middle_m : span->fore_m;
 	double root = NAN, nearest = x_m, least = INFINITY, before = 0;

@@ -41,7 +41,9 @@ static batten_status scale(batten_hull *variant, along *f, const void *user, dou
 	variant->draft_m *= delta;
 	variant->depth_m *= delta;
 	scale_extras(variant, f, user, beta, delta);
-	return variation_check_size(variant);
+	const batten_status status = variation_check_size(variant);
+	size_t filled = 0;
+	return status == BATTEN_OK ? hull_fill_unknown(variant, &filled) : status;
 }
 
 batten_status variation_check_size(const batten_hull *variant)

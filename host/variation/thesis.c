@@ -107,7 +107,7 @@ static batten_status area_of(const variation_parent *parent, const size_t lines[
 
 batten_status variation_thesis_sections(variation_parent *parent)
 {
-	size_t lines[AREA_LINES];
+	size_t lines[AREA_LINES] = { 0 };
 	batten_status status = check(parent, lines);
 	for (size_t w = 0; w < parent->hull->waterline_count && status == BATTEN_OK; w++)
 		status = resample(parent, w, &parent->lines[w]);

@@ -232,6 +232,7 @@ static void test_memory(void **state)
 		batten_vary_options options = method(thesis ? BATTEN_VARY_LACKENBY : (batten_vary_method)m);
 		options.first_pass = true;
 		options.thesis = thesis;
+		options.dcp_pct = 3;
 		options.dlcb_pct = 1;
 		options.other_count = 1;
 		options.others = others;
