@@ -117,7 +117,7 @@ static batten_status take_curves(variation_parent *parent)
 {
 	const batten_hull *hull = parent->hull;
 	const size_t count = hull->station_count;
-	section_source source;
+	section_source source = { 0 };
 	double *areas = batten_allocate(parent->context, count, 2 * sizeof *areas);
 	if (!areas)
 		return BATTEN_MEMORY;
