@@ -14,6 +14,7 @@ static const subcommand subcommands[] = {
 	{ "fair", cli_fair, "fair a hull: faired offsets, report, pictures" },
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
 	{ "curve", cli_curve, "represent one line and measure how fair it is" },
+	{ "vary", cli_vary, "make a variant of a parent hull" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "convert", cli_convert, "surfaces from one of JSON, IGES and STEP to another" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
@@ -72,7 +73,7 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, curve, surface, convert, "
+		"batten: found '%s', a command was expected: fair, measure, curve, vary, surface, convert, "
 		"devices, selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);

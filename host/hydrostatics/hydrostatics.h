@@ -22,4 +22,8 @@ typedef struct hydrostatics {
 batten_status hydrostatics_calculate(batten_context *context, const batten_hull *hull,
                                      double draft_m, batten_quadrature rule, hydrostatics *out);
 
+/* The measures that follow from it; those of fairness are NaN. */
+void hydrostatics_measures(const batten_hull *hull, double draft_m, double density_t_per_m3,
+                           const hydrostatics *body, batten_measures *out);
+
 #endif

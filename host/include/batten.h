@@ -483,6 +483,105 @@ typedef struct batten_fairing_facts {
 BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
 
 /* ------------------------------------------------------------------------------------------------
+ * Varying a parent hull
+ * --------------------------------------------------------------------------------------------- */
+
+/* What is moved, and which options count beside first_pass and thesis. Methods that move sections
+ * along the ship give the variant on the parent's table; sections stay as they are, the ends of the
+ * table stay where they are. */
+#define BATTEN_VARY_METHOD_LIST(X)                                                                 \
+	X(SWING, "swing", "swings the sectional area curve: dlcb (thesis 2.3.1)")                      \
+	X(ONE_MINUS_PRISMATIC, "one-minus-prismatic", "dcp, dlcb (thesis 2.3.2)")                      \
+	X(LACKENBY, "lackenby", "dcp, dlcb, dp_fore, dp_aft (thesis 2.3.3; Lackenby 1950)")            \
+	X(MOOR, "moor", "sectional areas and load waterline: dcp, dlcb, dcwp, dlcf (thesis 2.3.4)")    \
+	X(AVERAGE, "average", "weighted mean with other hulls (thesis 2.3.6)")                         \
+	X(AFFINE, "affine", "scale_x, scale_y, scale_z (Letcher 10.1)")                                \
+	X(THREE_BODY, "three-body",                                                                    \
+	  "fore, middle and after body stretched: volume, lcb, cp (Letcher 10.4)")                     \
+	X(STRETCH, "stretch", "x' = f(x) by a monotone spline (Letcher 10.3)")
+
+typedef enum batten_vary_method {
+#define BATTEN_VARY_METHOD_ENTRY(symbol, name, text) BATTEN_VARY_##symbol,
+	BATTEN_VARY_METHOD_LIST(BATTEN_VARY_METHOD_ENTRY)
+#undef BATTEN_VARY_METHOD_ENTRY
+		BATTEN_VARY_METHOD_COUNT,
+} batten_vary_method;
+
+/* "swing", ...; NULL beyond the last. */
+BATTEN_API const char *batten_vary_method_name(size_t method);
+BATTEN_API const char *batten_vary_method_text(size_t method);
+
+typedef struct batten_vary_options {
+	size_t struct_size;
+	batten_vary_method method;
+	bool first_pass; /* stop after one pass of the formulas; default: iterate until the measures of
+	                    the variant (batten_hull_measure()) are what was asked for */
+	bool thesis;     /* the thesis's procedure: 21 sections by natural splines, areas from six
+	                    waterlines; for the methods that move sections */
+
+	/* swing, one-minus-prismatic, lackenby, moor. dcp and dcwp in percent of the parent's value
+	 * (moor keeps the section amidships, so that its dcp is that of the block coefficient); dlcb
+	 * and dlcf in percent of LBP, + forward; 0 keeps the value. */
+	double dcp_pct, dlcb_pct, dcwp_pct, dlcf_pct;
+	double dp_fore_pct, dp_aft_pct;    /* parallel body added to each half, percent of the half */
+	double lcb_used_pct, lcf_used_pct; /* enter the split between the halves in place of the
+	                                      parent's own, percent of LBP, + forward; NaN: own */
+
+	/* average: (1 - sum of weights) parent + sum of weight * other; weights may lie outside 0..1 */
+	size_t other_count;
+	const batten_hull *const *others; /* borrowed for the call */
+	const double *weights;
+
+	double scale_x, scale_y, scale_z; /* affine: > 0; 1 */
+
+	/* three-body: NaN keeps the parent's value. The middle body, from the aft perpendicular; NaN
+	 * takes the parallel body that is found. */
+	double volume_m3, lcb_pct_lbp_fwd, cp;
+	double middle_aft_m, middle_fore_m;
+
+	/* stretch: x from the AP in parts of LBP and where it goes; 2..64 points, ascending both. */
+	size_t point_count;
+	const double *from_part, *to_part;
+} batten_vary_options;
+BATTEN_API void batten_vary_options_default(batten_vary_options *options);
+
+enum { BATTEN_VARY_TARGETS_MOST = 4, BATTEN_VARY_PARAMETERS_MOST = 8 };
+
+/* What became of one row. */
+typedef struct batten_vary_outcome {
+	batten_status status; /* OK: there is a variant */
+	char reason[384];     /* one line when there is none */
+	char warning[384];    /* one line, "" when nothing is to be said */
+	unsigned passes;      /* how many times the variant was made */
+	size_t target_count;
+	struct batten_vary_target {
+		const char *name; /* of a measure */
+		double parent, asked, got;
+	} targets[BATTEN_VARY_TARGETS_MOST];
+	size_t parameter_count; /* of the formulas, as used in the end */
+	struct batten_vary_parameter {
+		const char *name;
+		double value;
+	} parameters[BATTEN_VARY_PARAMETERS_MOST];
+} batten_vary_outcome;
+
+/* Makes one variant; the parent is not changed. Unless first_pass, every target is hit within 1e-5
+ * of its printed unit. outcome may be NULL. A map that would fold the hull and a target out of reach
+ * are INPUT; the reason then names the range that can be reached in the proportion asked for.
+ * Errors: USAGE (an option out of its range), INPUT (also a parent the method cannot take), MEMORY. */
+BATTEN_API batten_status batten_hull_vary(batten_context *context, const batten_hull *parent,
+                                          const batten_vary_options *options, batten_hull **out,
+                                          batten_vary_outcome *outcome);
+
+/* count rows from one parent. variants (caller's, [count]) gets a hull or NULL each, outcomes [count]
+ * what became of it; a row that fails stops no other, and the result of a row does not depend on the
+ * others. Returns INCOMPLETE when a row failed. */
+BATTEN_API batten_status batten_hull_vary_batch(batten_context *context, const batten_hull *parent,
+                                                size_t count, const batten_vary_options *options,
+                                                batten_hull **variants,
+                                                batten_vary_outcome *outcomes);
+
+/* ------------------------------------------------------------------------------------------------
  * Surfaces: a hull as one tensor-product B-spline surface
  * --------------------------------------------------------------------------------------------- */
 

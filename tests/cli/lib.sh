@@ -214,11 +214,11 @@ half_beam()
 }
 
 # same_form A B: B is a hull on the table of A: the same header, coordinates, cells outside the
-# hull, unknown cells, profile points and rows after the table. B may say that it was faired.
+# hull, unknown cells, profile points and rows after the table. B may say that it was faired or varied.
 same_form()
 {
 	for _file in "$1" "$2"; do
-		grep '^# [a-z-]*: ' "$_file" | sed '/^# source: /s/\(; \|: \)faired by batten [0-9.]*$/\1/; s/; $//
+		grep '^# [a-z-]*: ' "$_file" | sed '/^# source: /s/\(; \|: \)\(fair\|vari\)ed by batten [0-9.]*$/\1/; s/; $//
 			/^# source: $/d'
 		table_of "$_file" | awk -F, '
 			NR == 1 { first = $2 == "z" || $2 == "x" ? 4 : 2; print; next }

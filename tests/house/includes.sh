@@ -21,7 +21,7 @@ exchange      core hull geometry io
 picture       core hull geometry shared generated-shaders
 ray           core hull geometry
 hydrostatics  core hull geometry batch shared
-variation     core hull geometry batch shared
+variation     core hull geometry batch hydrostatics shared
 fairing       core hull geometry batch hydrostatics shared
 sweep         core hull geometry batch io exchange picture ray hydrostatics variation fairing shared
 bench

@@ -1,0 +1,74 @@
+#include "variation/targets.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define MEASURE(name) (offsetof(batten_measures, name) / sizeof(double))
+
+double variation_target_value(const variation_target *target, const batten_measures *measures)
+{
+	/* The struct is an array of doubles in the order of the names (batten.h). */
+	return ((const double *)measures)[target->measure];
+}
+
+/* A change in percent of the parent's value. */
+static variation_target part(size_t measure, const batten_measures *parent, double asked)
+{
+	variation_target target = {
+		.name = batten_measure_name(measure), .measure = measure, .asked = asked, .relative = true
+	};
+	target.zero = variation_target_value(&target, parent);
+	target.scale = 100 / target.zero;
+	return target;
+}
+
+/* A difference from the parent's value. */
+static variation_target difference(size_t measure, const batten_measures *parent, double asked)
+{
+	variation_target target = { .name = batten_measure_name(measure),
+		                        .measure = measure,
+		                        .asked = asked,
+		                        .scale = 1,
+		                        .relative = true };
+	target.zero = variation_target_value(&target, parent);
+	return target;
+}
+
+/* A value; NaN takes the parent's. */
+static variation_target value(size_t measure, const batten_measures *parent, double asked)
+{
+	variation_target target = { .name = batten_measure_name(measure),
+		                        .measure = measure,
+		                        .scale = 1 };
+	target.asked = isnan(asked) ? variation_target_value(&target, parent) : asked;
+	return target;
+}
+
+size_t variation_targets(const batten_vary_options *options, const batten_measures *parent,
+                         variation_target *out)
+{
+	const size_t lcb = MEASURE(lcb_pct_lbp_fwd), cp = MEASURE(cp);
+	switch (options->method) {
+	case BATTEN_VARY_SWING:
+		out[0] = difference(lcb, parent, options->dlcb_pct);
+		return 1;
+	case BATTEN_VARY_ONE_MINUS_PRISMATIC:
+	case BATTEN_VARY_LACKENBY:
+		out[0] = part(cp, parent, options->dcp_pct);
+		out[1] = difference(lcb, parent, options->dlcb_pct);
+		return 2;
+	case BATTEN_VARY_MOOR:
+		out[0] = part(MEASURE(cb), parent, options->dcp_pct);
+		out[1] = difference(lcb, parent, options->dlcb_pct);
+		out[2] = part(MEASURE(cwp), parent, options->dcwp_pct);
+		out[3] = difference(MEASURE(lcf_pct_lbp_fwd), parent, options->dlcf_pct);
+		return 4;
+	case BATTEN_VARY_THREE_BODY:
+		out[0] = value(MEASURE(volume_m3), parent, options->volume_m3);
+		out[1] = value(lcb, parent, options->lcb_pct_lbp_fwd);
+		out[2] = value(cp, parent, options->cp);
+		return 3;
+	default:
+		return 0;
+	}
+}
