@@ -1,5 +1,7 @@
 #include "core/spline.h"
 
+#include "core/gauss.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -282,4 +284,28 @@ void spline_derivatives(const struct spline *spline, double x, double out[SPLINE
 	out[1] = spline_slope(spline, x);
 	out[2] = spline_second(spline, x);
 	out[3] = 6 * piece.d;
+}
+
+double spline_integral(const struct spline *spline, double a, double b, int x_power, int power)
+{
+	enum { POINTS = 5 };
+	double nodes[POINTS];
+	double weights[POINTS];
+	double sum = 0;
+	gauss_points(POINTS, nodes, weights);
+	for (size_t i = 0; i + 1 < spline->count; i++) {
+		const double first = fmax(fmin(a, b), spline->x[i]);
+		const double last = fmin(fmax(a, b), spline->x[i + 1]);
+		for (size_t n = 0; n < POINTS && last > first; n++) {
+			const double x = 0.5 * (first + last) + 0.5 * (last - first) * nodes[n];
+			const double value = spline_value(spline, x);
+			double product = 0.5 * (last - first) * weights[n];
+			for (int p = 0; p < x_power; p++)
+				product *= x;
+			for (int p = 0; p < power; p++)
+				product *= value;
+			sum += product;
+		}
+	}
+	return a <= b ? sum : -sum;
 }

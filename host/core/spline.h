@@ -56,4 +56,8 @@ double spline_second(const struct spline *spline, double x);
  * cubic. */
 void spline_derivatives(const struct spline *spline, double x, double out[SPLINE_DERIVATIVES]);
 
+/* The integral of x^x_power * spline^power from a to b, both within the points; exact, as
+ * x_power + 3 power <= 9. */
+double spline_integral(const struct spline *spline, double a, double b, int x_power, int power);
+
 #endif

@@ -1,5 +1,4 @@
 /* One pass of each method. */
-#include "core/gauss.h"
 #include "variation/three_body.h"
 #include "variation/variation.h"
 
@@ -151,25 +150,6 @@ static batten_status find_middle(const variation_parent *parent, const batten_va
 	                   parent->hull->name, *aft_m, *fore_m, parent->hull->lbp_m);
 }
 
-/* The integral of x^power times a cubic spline between two places: three Gauss points a piece are exact
- * for its first moment. */
-static double moment_between(const struct spline *areas, double from, double to, int power)
-{
-	enum { POINTS = 3 };
-	double nodes[POINTS], weights[POINTS];
-	double sum = 0;
-	gauss_points(POINTS, nodes, weights);
-	for (size_t i = 0; i + 1 < areas->count; i++) {
-		const double a = fmax(from, areas->x[i]);
-		const double b = fmin(to, areas->x[i + 1]);
-		for (size_t n = 0; n < POINTS && b > a; n++) {
-			const double x = 0.5 * (a + b) + 0.5 * (b - a) * nodes[n];
-			sum += 0.5 * (b - a) * weights[n] * spline_value(areas, x) * (power == 1 ? x : 1.0);
-		}
-	}
-	return sum;
-}
-
 static three_body bodies_of(const variation_parent *parent, double aft_m, double fore_m)
 {
 	const double lbp = parent->hull->lbp_m;
@@ -181,8 +161,8 @@ static three_body bodies_of(const variation_parent *parent, double aft_m, double
 		                .waterline = { 1, 1, 1 },
 		                .section_area = spline_value(areas, parent->span.middle_m) };
 	for (size_t i = 0; i < 3; i++) {
-		body.volume[i] = moment_between(areas, from[i], to[i], 0);
-		body.centre[i] = (bow[i] - moment_between(areas, from[i], to[i], 1) / body.volume[i]) /
+		body.volume[i] = spline_integral(areas, from[i], to[i], 0, 1);
+		body.centre[i] = (bow[i] - spline_integral(areas, from[i], to[i], 1, 1) / body.volume[i]) /
 		                 body.length[i];
 	}
 	return body;

@@ -13,9 +13,9 @@ static variation_half half_of(const struct spline *curve, const variation_span *
 	const double to = fore ? span->fore_m : middle;
 	const double length = to - from;
 	const double scale = spline_value(curve, middle) * length;
-	const double area = spline_integral(curve, from, to);
-	const double first = spline_moment(curve, from, to);
-	const double second = spline_second_moment(curve, from, to);
+	const double area = spline_integral(curve, from, to, 0, 1);
+	const double first = spline_integral(curve, from, to, 1, 1);
+	const double second = spline_integral(curve, from, to, 2, 1);
 	const double moment = fore ? first - middle * area : middle * area - first;
 	const double about = second - 2 * middle * first + middle * middle * area;
 	return (variation_half){ .fullness = area / scale,
@@ -43,8 +43,8 @@ variation_shift variation_shift_swing(const struct spline *curve, const variatio
 {
 	/* ybar = (1/2 integral A^2) / (integral A): dx = dLCB A / ybar keeps the volume and moves its
 	 * centre by dLCB, for any size of it. */
-	const double area = spline_integral(curve, span->aft_m, span->fore_m);
-	const double lever = 0.5 * spline_square(curve, span->aft_m, span->fore_m) / area;
+	const double area = spline_integral(curve, span->aft_m, span->fore_m, 0, 1);
+	const double lever = 0.5 * spline_integral(curve, span->aft_m, span->fore_m, 0, 2) / area;
 	const double middle = spline_value(curve, span->middle_m);
 	return (variation_shift){ .span = *span,
 		                      .swing = curve,

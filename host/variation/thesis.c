@@ -100,7 +100,7 @@ static batten_status area_of(const variation_parent *parent, const size_t lines[
 	                                           &spline);
 	if (status != BATTEN_OK)
 		return status;
-	*area_m2 = 2 * spline_integral(&spline, z[0], z[AREA_LINES - 1]);
+	*area_m2 = 2 * spline_integral(&spline, z[0], z[AREA_LINES - 1], 0, 1);
 	spline_destroy(&spline);
 	return BATTEN_OK;
 }
