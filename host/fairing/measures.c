@@ -4,7 +4,7 @@
 #include "fairing/lines.h"
 #include "fairing/noise.h"
 #include "geometry/grid_curvature.h"
-#include "hydrostatics/hydrostatics.h"
+#include "hull/hull.h"
 
 #include <math.h>
 
@@ -36,61 +36,11 @@ void batten_measure_options_default(batten_measure_options *options)
 		                                 .density_t_per_m3 = 1.025 };
 }
 
-/* A measure that would be divided by nothing does not exist. */
-static double ratio(double of, double by)
+static void take_form(const batten_hydrostatics *from, batten_measures *out)
 {
-	return by > 0 ? of / by : NAN;
-}
-
-static void take_dimensions(const batten_hull *hull, double draft_m, const hydrostatics *body,
-                            batten_measures *out)
-{
-	out->lbp_m = hull->lbp_m;
-	out->draft_m = draft_m;
-	out->half_beam_m = batten_hull_half_beam_m(hull);
-	out->beam_max_m = 2 * out->half_beam_m;
-	out->lwl_m = body->waterline_length_m;
-	out->beam_wl_m = 2 * body->waterline_half_breadth_m;
-}
-
-static void take_volume(const hydrostatics *body, double density_t_per_m3, batten_measures *out)
-{
-	out->volume_m3 = body->volume_m3;
-	out->displacement_t = density_t_per_m3 * body->volume_m3;
-	out->wetted_surface_m2 = body->wetted_surface_m2;
-	out->midship_area_m2 = body->midship_area_m2;
-	out->max_section_area_m2 = body->max_section_area_m2;
-	out->xcb_from_ap_m = ratio(body->volume_moment_x_m4, body->volume_m3);
-	out->lcb_pct_lbp_fwd = 100 * (out->xcb_from_ap_m - 0.5 * out->lbp_m) / out->lbp_m;
-	out->kb_m = ratio(body->volume_moment_z_m4, body->volume_m3);
-}
-
-static void take_waterplane(const hydrostatics *body, double density_t_per_m3, batten_measures *out)
-{
-	double area = body->waterplane_area_m2;
-	out->waterplane_area_m2 = area;
-	out->tpc_t_per_cm = density_t_per_m3 * area / 100;
-	out->xcf_from_ap_m = ratio(body->waterplane_moment_x_m3, area);
-	out->lcf_pct_lbp_fwd = 100 * (out->xcf_from_ap_m - 0.5 * out->lbp_m) / out->lbp_m;
-	out->i_t_m4 = body->transverse_second_moment_m4;
-	out->i_l_m4 = body->longitudinal_second_moment_m4 -
-	              ratio(body->waterplane_moment_x_m3 * body->waterplane_moment_x_m3, area);
-	out->bmt_m = ratio(out->i_t_m4, out->volume_m3);
-	out->bml_m = ratio(out->i_l_m4, out->volume_m3);
-	out->kmt_m = out->kb_m + out->bmt_m;
-	out->kml_m = out->kb_m + out->bml_m;
-}
-
-/* L = lbp_m, B = beam_wl_m. */
-static void take_coefficients(batten_measures *out)
-{
-	double length = out->lbp_m, beam_draft = out->beam_wl_m * out->draft_m;
-	out->cb = ratio(out->volume_m3, length * beam_draft);
-	out->cp = ratio(out->volume_m3, length * out->midship_area_m2);
-	out->cm = ratio(out->midship_area_m2, beam_draft);
-	out->cwp = ratio(out->waterplane_area_m2, length * out->beam_wl_m);
-	out->cv = ratio(1000 * out->volume_m3, length * length * length);
-	out->cws = ratio(out->wetted_surface_m2, sqrt(out->volume_m3 * length));
+#define TAKE_QUANTITY(name, text) out->name = from->name;
+	BATTEN_FORM_LIST(TAKE_QUANTITY)
+#undef TAKE_QUANTITY
 }
 
 static batten_status take_energies(batten_context *context, const batten_hull *hull,
@@ -139,14 +89,6 @@ static batten_status check_options(batten_context *context, const batten_measure
 	if (!isfinite(options->draft_m) || options->draft_m < 0)
 		return batten_fail(context, BATTEN_USAGE, "draft %g m: expected a positive number",
 		                   options->draft_m);
-	if (!isfinite(options->density_t_per_m3) || options->density_t_per_m3 <= 0)
-		return batten_fail(context, BATTEN_USAGE, "density %g t/m3: expected a positive number",
-		                   options->density_t_per_m3);
-	if (options->quadrature != BATTEN_QUADRATURE_SPLINE &&
-	    options->quadrature != BATTEN_QUADRATURE_SIMPSON &&
-	    options->quadrature != BATTEN_QUADRATURE_TRAPEZOID)
-		return batten_fail(context, BATTEN_USAGE, "quadrature %d: no such rule",
-		                   (int)options->quadrature);
 	return BATTEN_OK;
 }
 
@@ -161,18 +103,20 @@ batten_status batten_hull_measure(batten_context *context, const batten_hull *hu
 	if (status != BATTEN_OK)
 		return status;
 	double draft = chosen.draft_m > 0 ? chosen.draft_m : hull->draft_m;
-	hydrostatics body;
-	status = hydrostatics_calculate(context, hull, draft, chosen.quadrature, &body);
+	batten_hydrostatics_options how;
+	batten_hydrostatics_options_default(&how);
+	how.quadrature = chosen.quadrature;
+	how.density_t_per_m3 = chosen.density_t_per_m3;
+	batten_hydrostatics body;
+	status = batten_hull_hydrostatics(context, hull, &how, 1, &draft, &body);
 	/* Nobody asked for this draft: the file is at fault. */
-	if (status == BATTEN_USAGE && chosen.draft_m == 0)
+	if (status == BATTEN_USAGE && chosen.draft_m == 0 &&
+	    !(draft > hull->z_m[0] && draft <= hull->z_m[hull->waterline_count - 1]))
 		return BATTEN_INPUT;
 	if (status != BATTEN_OK)
 		return status;
 	batten_measures made = { 0 };
-	take_dimensions(hull, draft, &body, &made);
-	take_volume(&body, chosen.density_t_per_m3, &made);
-	take_waterplane(&body, chosen.density_t_per_m3, &made);
-	take_coefficients(&made);
+	take_form(&body, &made);
 	status = take_fairness(context, hull, &made);
 	if (status == BATTEN_OK)
 		*out = made;
@@ -243,7 +187,8 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 		}
 	}
 	made.cn_rms_m = counted > 0 ? sqrt(squares / counted) : 0;
-	made.cn_pct = ratio(100 * made.cn_max_m, batten_hull_half_beam_m(reference));
+	double half_beam = batten_hull_half_beam_m(reference);
+	made.cn_pct = half_beam > 0 ? 100 * made.cn_max_m / half_beam : NAN;
 	*out = made;
 	return BATTEN_OK;
 }
