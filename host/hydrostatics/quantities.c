@@ -72,7 +72,7 @@ batten_status quantities_check_draft(batten_context *context, double lowest_m, d
 {
 	if (!(draft_m > lowest_m && draft_m <= highest_m + 1e-9 * (highest_m - lowest_m)))
 		return batten_fail(context, BATTEN_USAGE,
-		                   "draft %g m: the table goes from %g to %g m, expected a draft within it",
+		                   "draft %g m: the hull goes from %g to %g m, expected a draft within it",
 		                   draft_m, lowest_m, highest_m);
 	return BATTEN_OK;
 }

@@ -53,10 +53,14 @@ size_t batten_hydrostatics_warnings(const batten_hydrostatics *hydrostatics,
 {
 	static const struct band heights = { "gml_m / gmt_m", 0, 10, 100, "usual ships" };
 	struct collector found = { warnings, capacity, 0 };
+	if (!(hydrostatics->volume_m3 > 0))
+		return 0;
 	for (size_t i = 0; i < sizeof bands / sizeof bands[0]; i++) {
 		double value;
 		memcpy(&value, (const char *)hydrostatics + bands[i].offset, sizeof value);
-		check_band(&found, &bands[i], value);
+		/* an upright hull that is not stable is told of below */
+		if (!(strcmp(bands[i].name, "gmt_m") == 0 && value <= 0))
+			check_band(&found, &bands[i], value);
 	}
 	if (hydrostatics->gmt_m <= 0)
 		add(&found, "gmt_m", "gmt_m is not positive: the hull does not float upright");

@@ -6,7 +6,7 @@
 #include <math.h>
 
 static const double width = 1600, height = 1000;
-static const double left = 120, right = 1120, top = 130, bottom = 900;
+static const double left = 120, top = 130, bottom = 900;
 static const paper_ink dark = { 0.10, 0.12, 0.15 };
 static const paper_ink medium = { 0.33, 0.36, 0.40 };
 static const paper_ink faint = { 0.85, 0.87, 0.89 };
@@ -23,9 +23,18 @@ static void set_ink(cairo_t *cairo, paper_ink ink)
 	cairo_set_source_rgb(cairo, ink.red, ink.green, ink.blue);
 }
 
+/* Where the axes end: the legend is to the right of it, if there is one. */
+static double right_of(const struct chart *chart)
+{
+	for (size_t i = 0; i < chart->count; i++)
+		if (chart->curves[i].label[0])
+			return 1120;
+	return 1540;
+}
+
 static double across(const struct chart *chart, double x)
 {
-	return left + (right - left) * (x - chart->x_low) / (chart->x_high - chart->x_low);
+	return left + (right_of(chart) - left) * (x - chart->x_low) / (chart->x_high - chart->x_low);
 }
 
 static double down(const struct chart *chart, double y)
@@ -43,6 +52,7 @@ static void draw_rule(cairo_t *cairo, double x0, double y0, double x1, double y1
 
 static void draw_axes(const struct chart *chart, cairo_t *cairo)
 {
+	const double right = right_of(chart);
 	char number[64];
 	cairo_set_line_width(cairo, 1.0);
 	paper_ticks ticks = paper_choose_ticks(chart->x_low, chart->x_high, 12);
@@ -106,6 +116,7 @@ static void draw_curve(const struct chart *chart, cairo_t *cairo, const chart_cu
 
 static void draw_curves(const struct chart *chart, cairo_t *cairo)
 {
+	const double right = right_of(chart);
 	double y = top + 16;
 	size_t pen = 0;
 	for (size_t i = 0; i < chart->count; i++) {
