@@ -6,7 +6,7 @@
 #include "fairing/noise.h"
 #include "geometry/grid_curvature.h"
 #include "geometry/grid_variation.h"
-#include "hydrostatics/hydrostatics.h"
+#include "hull/hull.h"
 
 #include <math.h>
 
@@ -38,10 +38,11 @@ void batten_measure_options_default(batten_measure_options *options)
 		                                 .density_t_per_m3 = 1.025 };
 }
 
-/* A measure that would be divided by nothing does not exist. */
-static double ratio(double of, double by)
+static void take_form(const batten_hydrostatics *from, batten_measures *out)
 {
-	return by > 0 ? of / by : NAN;
+#define TAKE_QUANTITY(name, text) out->name = from->name;
+	BATTEN_FORM_LIST(TAKE_QUANTITY)
+#undef TAKE_QUANTITY
 }
 
 static batten_status take_energies(batten_context *context, const batten_hull *hull,
@@ -91,14 +92,6 @@ static batten_status check_options(batten_context *context, const batten_measure
 	if (!isfinite(options->draft_m) || options->draft_m < 0)
 		return batten_fail(context, BATTEN_USAGE, "draft %g m: expected a positive number",
 		                   options->draft_m);
-	if (!isfinite(options->density_t_per_m3) || options->density_t_per_m3 <= 0)
-		return batten_fail(context, BATTEN_USAGE, "density %g t/m3: expected a positive number",
-		                   options->density_t_per_m3);
-	if (options->quadrature != BATTEN_QUADRATURE_SPLINE &&
-	    options->quadrature != BATTEN_QUADRATURE_SIMPSON &&
-	    options->quadrature != BATTEN_QUADRATURE_TRAPEZOID)
-		return batten_fail(context, BATTEN_USAGE, "quadrature %d: no such rule",
-		                   (int)options->quadrature);
 	return BATTEN_OK;
 }
 
@@ -113,15 +106,20 @@ batten_status batten_hull_measure(batten_context *context, const batten_hull *hu
 	if (status != BATTEN_OK)
 		return status;
 	double draft = chosen.draft_m > 0 ? chosen.draft_m : hull->draft_m;
-	hydrostatics body;
-	status = hydrostatics_calculate(context, hull, draft, chosen.quadrature, &body);
+	batten_hydrostatics_options how;
+	batten_hydrostatics_options_default(&how);
+	how.quadrature = chosen.quadrature;
+	how.density_t_per_m3 = chosen.density_t_per_m3;
+	batten_hydrostatics body;
+	status = batten_hull_hydrostatics(context, hull, &how, 1, &draft, &body);
 	/* Nobody asked for this draft: the file is at fault. */
-	if (status == BATTEN_USAGE && chosen.draft_m == 0)
+	if (status == BATTEN_USAGE && chosen.draft_m == 0 &&
+	    !(draft > hull->z_m[0] && draft <= hull->z_m[hull->waterline_count - 1]))
 		return BATTEN_INPUT;
 	if (status != BATTEN_OK)
 		return status;
-	batten_measures made;
-	hydrostatics_measures(hull, draft, chosen.density_t_per_m3, &body, &made);
+	batten_measures made = { 0 };
+	take_form(&body, &made);
 	status = take_fairness(context, hull, &made);
 	if (status == BATTEN_OK)
 		*out = made;
@@ -185,7 +183,8 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 		}
 	}
 	made.cn_rms_m = counted > 0 ? sqrt(squares / counted) : 0;
-	made.cn_pct = ratio(100 * made.cn_max_m, batten_hull_half_beam_m(reference));
+	double half_beam = batten_hull_half_beam_m(reference);
+	made.cn_pct = half_beam > 0 ? 100 * made.cn_max_m / half_beam : NAN;
 	*out = made;
 	return BATTEN_OK;
 }

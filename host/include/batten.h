@@ -203,8 +203,9 @@ BATTEN_API void batten_measure_options_default(batten_measure_options *options);
 
 /* Every measure: its name, which carries unit and sign, and what it is. A measure that does not exist
  * for a hull is NaN (null in JSON). L of the coefficients is lbp_m, B is beam_wl_m.
- * Definitions: Letcher 9-11; fairness: thesis 4.4, 5 and 7. */
-#define BATTEN_MEASURE_LIST(X)                                                                     \
+ * Definitions: Letcher 9-11; fairness: thesis 4.4, 5 and 7. First what is known of a hull at a
+ * draft, then what is known of it at any. */
+#define BATTEN_FORM_LIST(X)                                                                        \
 	X(lbp_m, "length between perpendiculars")                                                      \
 	X(lwl_m, "length of the waterline at the draft")                                               \
 	X(beam_wl_m, "largest breadth of the waterline at the draft")                                  \
@@ -234,7 +235,10 @@ BATTEN_API void batten_measure_options_default(batten_measure_options *options);
 	X(kml_m, "longitudinal metacentre above the baseline")                                         \
 	X(i_t_m4, "transverse second moment of the waterplane")                                        \
 	X(i_l_m4, "longitudinal second moment of the waterplane about its centre")                     \
-	X(tpc_t_per_cm, "tonnes per centimetre immersion")                                             \
+	X(tpc_t_per_cm, "tonnes per centimetre immersion")
+
+#define BATTEN_MEASURE_LIST(X)                                                                     \
+	BATTEN_FORM_LIST(X)                                                                            \
 	X(fn_per_m2, "fairness number: sum of squared second derivatives over all waterlines")         \
 	X(fn_sections_per_m2, "the same over all sections")                                            \
 	X(energy_bending, "sum of (k1^2 + k2^2) dS over the nodes inside the hull")                    \
@@ -1030,6 +1034,172 @@ BATTEN_API batten_status batten_curve_write(batten_context *context, const batte
                                             size_t count, const char *path);
 
 /* ------------------------------------------------------------------------------------------------
+ * Hydrostatics over drafts, from offsets, surfaces and triangle meshes
+ * --------------------------------------------------------------------------------------------- */
+
+/* Upright, zero trim, moulded, both sides, at one draft. NaN where a quantity does not exist: no
+ * waterplane, no volume, no height of the centre of gravity. Definitions: Letcher 9-11. */
+#define BATTEN_HYDROSTATICS_LIST(X)                                                                \
+	BATTEN_FORM_LIST(X)                                                                            \
+	X(transom_area_m2, "immersed area of full end sections, left out of the wetted surface")       \
+	X(gmt_m, "transverse metacentric height, + stable")                                            \
+	X(gml_m, "longitudinal metacentric height, + stable")                                          \
+	X(mt1cm_t_m_per_cm, "moment to change trim by one centimetre over LBP")                        \
+	X(volume_mismatch_pct, "largest difference of the x- and z-forms of the volume from the y-form")
+
+typedef struct batten_hydrostatics {
+#define BATTEN_HYDROSTATICS_FIELD(name, text) double name;
+	BATTEN_HYDROSTATICS_LIST(BATTEN_HYDROSTATICS_FIELD)
+#undef BATTEN_HYDROSTATICS_FIELD
+} batten_hydrostatics;
+
+enum { BATTEN_HYDROSTATICS_COUNT = (int)(sizeof(batten_hydrostatics) / sizeof(double)) };
+
+/* Name and meaning of quantity number i, in the order of the struct; NULL beyond. */
+BATTEN_API const char *batten_hydrostatics_name(size_t i);
+BATTEN_API const char *batten_hydrostatics_text(size_t i);
+
+typedef struct batten_hydrostatics_options {
+	size_t struct_size;
+	batten_quadrature quadrature; /* of offsets; surfaces are integrated by Gauss points, meshes
+	                                 triangle by triangle */
+	double density_t_per_m3;      /* 1.025 */
+	double kg_m;                  /* centre of gravity above the baseline; NaN: not known */
+	double lbp_m;          /* of surfaces and meshes; 0 takes x of their foremost point, which
+	                                 must lie before the aft perpendicular, x = 0 */
+	unsigned gauss_points; /* of surfaces, a knot span and direction, 1..16; 0 takes twice the
+	                                 larger degree, 12 at least: exact for polynomial patches that
+	                                 the waterline does not cut */
+} batten_hydrostatics_options;
+BATTEN_API void batten_hydrostatics_options_default(batten_hydrostatics_options *options);
+
+/* At count drafts (m above the baseline, in any order); out is the caller's, [count]. options may be
+ * NULL. Errors: USAGE (a draft that is not finite or not within the table, an option out of its range),
+ * INPUT (a rule whose conditions do not hold), MEMORY. */
+BATTEN_API batten_status batten_hull_hydrostatics(batten_context *context, const batten_hull *hull,
+                                                  const batten_hydrostatics_options *options,
+                                                  size_t count, const double *drafts_m,
+                                                  batten_hydrostatics *out);
+
+/* The draft at which a hull displaces that many tonnes, by Newton's method with the waterplane as
+ * the derivative, kept between bounds (Letcher 9.5). Errors: USAGE (also a displacement the hull does
+ * not reach; the message names the range), INPUT, MEMORY. */
+BATTEN_API batten_status batten_hull_draft_at(batten_context *context, const batten_hull *hull,
+                                              const batten_hydrostatics_options *options,
+                                              double displacement_t, double *draft_m);
+
+/* Bonjean's curves: the area of every section of the table up to each of count heights, both sides;
+ * areas_m2 is the caller's, [count][stations]. Errors: as batten_hull_hydrostatics(). */
+BATTEN_API batten_status batten_hull_section_areas(batten_context *context, const batten_hull *hull,
+                                                   const batten_hydrostatics_options *options,
+                                                   size_t count, const double *heights_m,
+                                                   double *areas_m2);
+
+/* The curve of section areas at one draft, with its ends beyond the stations. x_m and area_m2 are the
+ * caller's, stations + 2 each; *count gets the number of points. Errors: as
+ * batten_hull_hydrostatics(). */
+BATTEN_API batten_status batten_hull_area_curve(batten_context *context, const batten_hull *hull,
+                                                const batten_hydrostatics_options *options,
+                                                double draft_m, double *x_m, double *area_m2,
+                                                size_t *count);
+
+/* The same of a half hull as a B-spline surface, by the divergence theorem (Letcher 9.4): Gauss points
+ * in every knot span, cut at the waterline. Either sense of the normal will do. Ends that do not reach
+ * the centreplane are transoms; a keel that does not, and a deck below the draft, leave the hull open:
+ * its volume counts, but the three forms of it (by x, y and z) differ, volume_mismatch_pct says by how
+ * much. Errors: USAGE (as above; a draft not within the surface; no volume below it), MEMORY. */
+BATTEN_API batten_status batten_surface_hydrostatics(batten_context *context,
+                                                     const batten_surface *surface,
+                                                     const batten_hydrostatics_options *options,
+                                                     size_t count, const double *drafts_m,
+                                                     batten_hydrostatics *out);
+BATTEN_API batten_status batten_surface_draft_at(batten_context *context,
+                                                 const batten_surface *surface,
+                                                 const batten_hydrostatics_options *options,
+                                                 double displacement_t, double *draft_m);
+
+/* Areas of the sections at section_count places x_m; areas_m2 [height_count][section_count]. */
+BATTEN_API batten_status batten_surface_section_areas(batten_context *context,
+                                                      const batten_surface *surface,
+                                                      const batten_hydrostatics_options *options,
+                                                      size_t section_count, const double *x_m,
+                                                      size_t height_count, const double *heights_m,
+                                                      double *areas_m2);
+
+/* Every measure of a surface: its hydrostatics at a draft, and the energies over the whole of it
+ * (batten_surface_energy_batch() on the plain C path). What belongs to tables is NaN. */
+BATTEN_API batten_status batten_surface_measure(batten_context *context,
+                                                const batten_surface *surface,
+                                                const batten_hydrostatics_options *options,
+                                                double draft_m, batten_measures *out);
+
+/* A hull as triangles, counter-clockwise seen from the water. */
+typedef struct batten_mesh batten_mesh;
+typedef struct batten_mesh_table {
+	size_t vertex_count, triangle_count; /* 3 at least, 1 at least */
+	const double *vertices_m;            /* [vertices][3]: x, y, z; finite, within 1e6 m */
+	const uint32_t *triangles;           /* [triangles][3]: numbers of vertices */
+	bool half;                           /* the half hull y >= 0: its image in y = 0 is added */
+} batten_mesh_table;
+
+/* Copies and checks. Errors: INPUT (one line that names the triangle: a vertex that is not there or
+ * occurs twice in it, an edge of more than two triangles, one that runs against its neighbour, all
+ * of them inside out), USAGE (nothing given), MEMORY. */
+BATTEN_API batten_status batten_mesh_create(batten_context *context, const batten_mesh_table *table,
+                                            batten_mesh **out);
+BATTEN_API void batten_mesh_destroy(batten_mesh *mesh);
+
+typedef struct batten_mesh_facts {
+	size_t vertex_count, triangle_count, edge_count;
+	size_t open_edge_count; /* of one triangle only; not counted: those of a half hull in y = 0 */
+	size_t first_open_triangle;          /* with such an edge; triangle_count without one */
+	double area_m2, lowest_m, highest_m; /* area of all triangles, both sides of a half hull */
+} batten_mesh_facts;
+BATTEN_API batten_mesh_facts batten_mesh_describe(const batten_mesh *mesh);
+
+/* As for surfaces. The waterplane needs no triangles, nor does a vertical transom; holes below the
+ * draft show in volume_mismatch_pct. */
+BATTEN_API batten_status batten_mesh_hydrostatics(batten_context *context, const batten_mesh *mesh,
+                                                  const batten_hydrostatics_options *options,
+                                                  size_t count, const double *drafts_m,
+                                                  batten_hydrostatics *out);
+BATTEN_API batten_status batten_mesh_draft_at(batten_context *context, const batten_mesh *mesh,
+                                              const batten_hydrostatics_options *options,
+                                              double displacement_t, double *draft_m);
+BATTEN_API batten_status batten_mesh_section_areas(batten_context *context, const batten_mesh *mesh,
+                                                   const batten_hydrostatics_options *options,
+                                                   size_t section_count, const double *x_m,
+                                                   size_t height_count, const double *heights_m,
+                                                   double *areas_m2);
+
+/* Something about a hull worth a second look: a quantity outside the range of usual ships (Letcher
+ * 10-11), or a surface or mesh that is not closed. Never an error. */
+typedef struct batten_warning {
+	char name[32]; /* of the quantity */
+	char text[160];
+} batten_warning;
+
+/* A volume_mismatch_pct above this is warned of. */
+#define BATTEN_MISMATCH_LARGEST_PCT 0.01
+
+/* warnings is the caller's, capacity entries long; returns the number there are. */
+BATTEN_API size_t batten_hydrostatics_warnings(const batten_hydrostatics *hydrostatics,
+                                               batten_warning *warnings, size_t capacity);
+
+/* Numbers in named columns, as files take them. */
+typedef struct batten_table {
+	const char *name, *quadrature; /* of the hull and of the rule */
+	size_t column_count, row_count;
+	const char *const *columns; /* names with units */
+	const double *values;       /* [rows][columns]; NaN is an empty cell, null in JSON */
+} batten_table;
+
+/* Writes the table as CSV or JSON, as path ends in .csv or .json; the file is replaced at once or not
+ * at all. Errors: USAGE (another ending), IO, MEMORY. */
+BATTEN_API batten_status batten_table_write(batten_context *context, const batten_table *table,
+                                            const char *path);
+
+/* ------------------------------------------------------------------------------------------------
  * Pictures
  * --------------------------------------------------------------------------------------------- */
 
@@ -1062,6 +1232,27 @@ BATTEN_API batten_status batten_picture_lines(batten_context *context, const bat
 BATTEN_API batten_status batten_picture_curves(batten_context *context, const batten_points *points,
                                                size_t count, const batten_curve *const *curves,
                                                const char *path);
+
+/* Curves of form: draft upwards, every quantity on one scale of 0 to 10 by a power of ten that the
+ * legend states (Letcher 11.1). count >= 2 rows of ascending draft. Errors: USAGE, IO, MEMORY. */
+BATTEN_API batten_status batten_picture_curves_of_form(batten_context *context, const char *name,
+                                                       size_t count,
+                                                       const batten_hydrostatics *rows,
+                                                       const char *path);
+
+/* Bonjean's curves on the profile: at each section its area up to each height, to the right of it.
+ * areas_m2 [height_count][section_count], both counts >= 2, x and heights ascending. */
+BATTEN_API batten_status batten_picture_bonjean(batten_context *context, const char *name,
+                                                size_t section_count, const double *x_m,
+                                                size_t height_count, const double *heights_m,
+                                                const double *areas_m2, const char *path);
+
+/* Section area curves at curve_count drafts: counts[curve] points each, one after the other in x_m
+ * and area_m2. */
+BATTEN_API batten_status batten_picture_section_areas(batten_context *context, const char *name,
+                                                      size_t curve_count, const double *drafts_m,
+                                                      const size_t *counts, const double *x_m,
+                                                      const double *area_m2, const char *path);
 
 #ifdef __cplusplus
 }

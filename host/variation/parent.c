@@ -12,14 +12,18 @@
 batten_status variation_measure(batten_context *context, const batten_hull *hull,
                                 batten_measures *out)
 {
-	batten_measure_options options;
-	batten_measure_options_default(&options);
-	hydrostatics body;
-	const batten_status status = hydrostatics_calculate(context, hull, hull->draft_m,
-	                                                    options.quadrature, &body);
-	if (status == BATTEN_OK)
-		hydrostatics_measures(hull, hull->draft_m, options.density_t_per_m3, &body, out);
-	return status == BATTEN_USAGE ? BATTEN_INPUT : status;
+	batten_hydrostatics body;
+	const batten_status status = batten_hull_hydrostatics(context, hull, NULL, 1, &hull->draft_m,
+	                                                      &body);
+	if (status != BATTEN_OK)
+		return status == BATTEN_USAGE ? BATTEN_INPUT : status;
+#define NONE(name, text) .name = NAN,
+	*out = (batten_measures){ BATTEN_MEASURE_LIST(NONE) };
+#undef NONE
+#define TAKE(name, text) out->name = body.name;
+	BATTEN_FORM_LIST(TAKE)
+#undef TAKE
+	return BATTEN_OK;
 }
 
 batten_status variation_mark_source(batten_hull *variant)

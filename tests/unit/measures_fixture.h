@@ -17,15 +17,15 @@ enum { MOST = 161 };
 /* Half-breadth over x and height over the keel; NaN is outside. */
 typedef double form(double x, double z);
 
-static batten_context *make_context(void)
+static inline batten_context *make_context(void)
 {
 	batten_context *context = NULL;
 	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
 	return context;
 }
 
-static batten_hull *make_hull(batten_context *context, form *surface, double length, double depth,
-                              size_t nx, size_t nz)
+static inline batten_hull *make_hull(batten_context *context, form *surface, double length,
+                                     double depth, size_t nx, size_t nz)
 {
 	static double y[MOST * MOST];
 	static uint8_t nodes[MOST * MOST];
@@ -46,8 +46,8 @@ static batten_hull *make_hull(batten_context *context, form *surface, double len
 	return hull;
 }
 
-static batten_measures measure_at(batten_context *context, const batten_hull *hull,
-                                  batten_quadrature rule, double draft_m)
+static inline batten_measures measure_at(batten_context *context, const batten_hull *hull,
+                                         batten_quadrature rule, double draft_m)
 {
 	batten_measure_options options;
 	batten_measure_options_default(&options);
@@ -59,8 +59,8 @@ static batten_measures measure_at(batten_context *context, const batten_hull *hu
 	return measures;
 }
 
-static batten_measures measure_form(form *surface, double length, double depth, size_t nx,
-                                    size_t nz, batten_quadrature rule, double draft_m)
+static inline batten_measures measure_form(form *surface, double length, double depth, size_t nx,
+                                           size_t nz, batten_quadrature rule, double draft_m)
 {
 	batten_context *context = make_context();
 	batten_hull *hull = make_hull(context, surface, length, depth, nx, nz);
@@ -70,7 +70,7 @@ static batten_measures measure_form(form *surface, double length, double depth, 
 	return measures;
 }
 
-static void assert_relative(double value, double expected, double tolerance)
+static inline void assert_relative(double value, double expected, double tolerance)
 {
 	if (!(fabs(value / expected - 1) <= tolerance))
 		fail_msg("%.17g where %.17g is expected", value, expected);

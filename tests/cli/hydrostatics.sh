@@ -1,0 +1,121 @@
+#!/bin/sh
+# batten measure over drafts: displacement, curves of form, Bonjean's and section area curves, surfaces.
+. "$(dirname "$0")/lib.sh"
+hull=$hulls/wigley.csv
+trawler=$hulls/bsra_trawler.csv
+mkdir place
+cd place || exit 1
+
+# near WHAT VALUE EXPECTED TOLERANCE (relative)
+near()
+{
+	holds "$1" 'x - v <= t * v && v - x <= t * v' x="$2" v="$3" t="$4"
+}
+
+expect 0 measure --help
+for option in draft displacement curves-of-form bonjean section-areas out kg lbp quadrature; do
+	prints "^  --$option"
+done
+
+# The draft at a displacement displaces it.
+expect 0 measure "$hull" --draft 0.7 --json
+cp "$out" ../draft.json
+expect 0 measure "$hull" --displacement "$(member ../draft.json displacement_t)" --kg 0.25 --json
+cp "$out" ../weight.json
+expect_json ../weight.json
+near 'draft' "$(member ../weight.json draft_m)" 0.7 1e-10
+holds 'heights' 'gmt == kmt - 0.25 && (mt - d * gml / 1600)^2 < 1e-28' \
+	gmt="$(member ../weight.json gmt_m)" kmt="$(member ../weight.json kmt_m)" \
+	gml="$(member ../weight.json gml_m)" d="$(member ../weight.json displacement_t)" \
+	mt="$(member ../weight.json mt1cm_t_m_per_cm)"
+[ "$(member ../draft.json gmt_m)" = null ] || fail 'a metacentric height without a centre of gravity'
+
+# A table over drafts, wherever it goes, says the same.
+expect 0 measure "$hull" --curves-of-form 4 --out form.csv
+[ -s "$out" ] && fail 'the table went to standard output too'
+expect 0 measure "$hull" --draft 0.25,0.5,0.75,1 --out list.csv
+cmp form.csv list.csv || fail 'curves of form and a list of drafts differ'
+[ "$(grep -vc '^#' form.csv)" -eq 5 ] || fail 'not four rows'
+column()
+{
+	awk -F, -v name="$1" '/^#/ { next } !at { for (i = 1; i <= NF; i++) if ($i == name) at = i; next }
+		{ print $at }' form.csv
+}
+# shellcheck disable=SC2046
+set -- $(column volume_m3)
+holds 'volumes ascend' 'a < b && b < c && c < d' a="$1" b="$2" c="$3" d="$4"
+expect 0 measure "$hull" --curves-of-form 4 --out form.json
+expect_json form.json
+expect 0 measure "$hull" --curves-of-form 4 --json
+expect_json "$out"
+expect 0 measure "$hull" --curves-of-form 4
+prints '^volume_m3 '
+expect 0 measure "$hull" --bonjean 5 --out bonjean.csv
+[ "$(grep -vc '^#' bonjean.csv)" -eq 66 ] || fail "Bonjean's curves: not 5 x 13 rows"
+expect 0 measure "$trawler" --section-areas --draft 1,2 --quiet
+prints 'draft_m.*x_m.*section_area_m2'
+for kind in '--curves-of-form 9' '--bonjean 9' '--section-areas'; do
+	# shellcheck disable=SC2086
+	expect 0 measure "$trawler" $kind --out chart.svg
+	head -n 3 chart.svg | grep -q '<svg' || fail "$kind: no SVG"
+	[ -x "$(command -v xmllint)" ] && { xmllint --noout --nonet chart.svg || fail "$kind: bad XML"; }
+	cp chart.svg first.svg
+	# shellcheck disable=SC2086
+	expect 0 measure "$trawler" $kind --out chart.svg
+	cmp first.svg chart.svg || fail "$kind: two calls drew different charts"
+done
+
+# A surface: the Wigley hull is one patch, whose numbers are known.
+expect 0 surface "$hull" --net 3x3 --order 3x3 --out wigley.json
+expect 0 measure wigley.json --draft 1 --json
+[ -s "$talk" ] && fail "a closed surface is warned of: $(cat "$talk")"
+cp "$out" ../surface.json
+expect_json ../surface.json
+[ "$(member ../surface.json quadrature)" = gauss ] || fail 'the rule of a surface is not named'
+near 'cb of the surface' "$(member ../surface.json cb)" 0.44444444444444444 1e-11
+near 'kb of the surface' "$(member ../surface.json kb_m)" 0.625 1e-11
+[ "$(member ../surface.json fn_per_m2)" = null ] || fail 'a surface with a fairness number of tables'
+expect 0 measure wigley.json --draft 1 --curves-of-form 3
+expect 0 measure wigley.json --draft 1 --bonjean 3 --out b.svg
+expect 0 measure wigley.json --draft 0.5,1 --section-areas --out a.csv
+expect 0 measure wigley.json --displacement 5
+prints '^displacement_t  *5 '
+
+# Warnings are no errors, and silent when asked to be.
+expect 0 measure "$hulls/npl_parent.csv"
+says '^warning: transom_area_m2'
+expect 0 measure "$hulls/npl_parent.csv" --quiet
+[ -s "$talk" ] && fail "--quiet: $(cat "$talk")"
+
+before=$(state_of .)
+# refuses CODE PATTERN ARGUMENT...: one line that has this in it.
+refuses()
+{
+	code_expected=$1
+	pattern=$2
+	shift 2
+	expect "$code_expected" measure "$@"
+	one_line
+	says "$pattern"
+}
+refuses 2 'a surface has no draft' wigley.json
+refuses 2 'draft 1.5 m: the hull goes from .* to 1 m' wigley.json --draft 1.5
+refuses 2 'draft 2 m: the hull goes from 0 to 1 m' "$hull" --draft 0.5,2
+refuses 2 "found 'x'" "$hull" --draft 0.5,x
+refuses 2 "found ''" "$hull" --draft 0.5,
+refuses 2 'found 0, expected a draft above 0' "$hull" --draft 0.5,0
+refuses 2 'nan' "$hull" --draft nan
+refuses 2 'the hull displaces up to' "$hull" --displacement 1000
+refuses 2 'displacement 0 t' "$hull" --displacement 0
+refuses 2 'one of them' "$hull" --displacement 5 --draft 1
+refuses 2 'one of them' "$hull" --bonjean 5 --curves-of-form 5
+refuses 2 'expected the highest one' "$hull" --curves-of-form 3 --draft 0.5,1
+refuses 2 '4096' "$hull" --curves-of-form 5000
+refuses 2 '--out goes with' "$hull" --out x.csv
+refuses 2 "found 'x.txt'" "$hull" --bonjean 3 --out x.txt
+refuses 2 'two heights' "$hull" --bonjean 1 --out x.svg
+refuses 2 'lbp' wigley.json --draft 1 --lbp -1
+refuses 6 'none/x.csv' "$hull" --bonjean 3 --out none/x.csv
+refuses 6 'none/x.svg' "$hull" --bonjean 3 --out none/x.svg
+[ "$(state_of .)" = "$before" ] || fail 'a refused call wrote something'
+finish
