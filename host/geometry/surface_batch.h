@@ -22,6 +22,10 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
                                  size_t poles, const double *knots, size_t count,
                                  const double *parameters, surface_samples *out);
 
+/* Nodes and weights of Gauss and Legendre over -1..1, at most SURFACE_GAUSS_MOST. */
+enum { SURFACE_GAUSS_MOST = 16 };
+void surface_gauss_points(size_t count, double *nodes, double *weights);
+
 /* The same at points Gauss points of every span that is not empty, with their weights. */
 batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
                                     const double *knots, size_t points, surface_samples *out);

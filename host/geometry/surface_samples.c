@@ -58,9 +58,8 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
 	return status;
 }
 
-/* Nodes and weights of Gauss and Legendre over -1..1, by Newton's method on the Legendre polynomial;
- * its weights are 2 / ((1 - x^2) P'^2). */
-static void find_gauss_points(size_t count, double *nodes, double *weights)
+/* By Newton's method on the Legendre polynomial; the weights are 2 / ((1 - x^2) P'^2). */
+void surface_gauss_points(size_t count, double *nodes, double *weights)
 {
 	const double pi = acos(-1.0);
 	for (size_t n = 0; n < count; n++) {
@@ -86,13 +85,12 @@ static void find_gauss_points(size_t count, double *nodes, double *weights)
 batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
                                     const double *knots, size_t points, surface_samples *out)
 {
-	enum { POINTS_MOST = 16 };
-	double nodes[POINTS_MOST];
-	double weights[POINTS_MOST];
-	if (points < 1 || points > POINTS_MOST)
+	double nodes[SURFACE_GAUSS_MOST];
+	double weights[SURFACE_GAUSS_MOST];
+	if (points < 1 || points > SURFACE_GAUSS_MOST)
 		return batten_fail(context, BATTEN_USAGE, "%zu Gauss points a span: 1 to %d are expected",
-		                   points, POINTS_MOST);
-	find_gauss_points(points, nodes, weights);
+		                   points, SURFACE_GAUSS_MOST);
+	surface_gauss_points(points, nodes, weights);
 	size_t spans = 0;
 	for (size_t span = order - 1; span < poles; span++)
 		spans += knots[span] < knots[span + 1];
