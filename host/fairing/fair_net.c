@@ -3,11 +3,10 @@
 #include "fairing/discrepancy.h"
 #include "fairing/fairing.h"
 #include "fairing/net_box.h"
+#include "fairing/net_fit.h"
 #include "fairing/net_places.h"
-#include "fairing/net_size.h"
 
 #include <math.h>
-#include <string.h>
 
 struct work {
 	batten_fairing *fairing;
@@ -181,11 +180,8 @@ static batten_status search(struct work *work)
 static batten_status fit(struct work *work)
 {
 	batten_fairing *fairing = work->fairing;
-	batten_fit_options options = work->options->fit;
-	batten_status status = net_size_choose(fairing->smoothed, &options);
-	if (status == BATTEN_OK)
-		status = batten_hull_fit(fairing->context, fairing->smoothed, &options,
-		                         &fairing->fitted_surface, &fairing->net.deviation);
+	batten_status status = net_fit(fairing->smoothed, &work->options->fit, fairing->facts.noise_m,
+	                               &fairing->fitted_surface, &fairing->net.deviation);
 	if (status == BATTEN_OK)
 		status = batten_surface_clone(fairing->context, fairing->fitted_surface,
 		                              &fairing->faired_surface);
