@@ -13,7 +13,7 @@ batten_status net_reference_create(const net_plan *plan, net_reference *out)
 	r.heights = batten_allocate(context, plan->directions.member_count + 1, number);
 	r.samples = batten_allocate(context, net_pack_sample_count(plan), number);
 	r.arrays = batten_allocate(context, poles, NET_ARRAY_COUNT * number);
-	r.scratch = batten_allocate(context, 3 * poles + plan->v.count, number);
+	r.scratch = batten_allocate(context, NET_STATE_COUNT * poles + plan->v.count, number);
 	r.rooms = batten_allocate(context, poles, sizeof *r.rooms);
 	if (!r.tables || !r.heights || !r.samples || !r.arrays || !r.scratch || !r.rooms) {
 		net_reference_release(&r);

@@ -44,7 +44,8 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 		.members = shared->members,
 		.heights = heights,
 		.samples = samples,
-		.sums = scratch + 3 * (size_t)nodes,
+		.ways = scratch + 3 * (size_t)nodes,
+		.sums = scratch + NET_STATE_COUNT * (size_t)nodes,
 		.rounding = settings[NET_SETTING_ROUNDING],
 	};
 	scalar gathered[2];

@@ -20,7 +20,7 @@ typedef struct search_state {
 	int lines, length; /* samples along v, along u */
 	int colour_count;
 	int order_u, order_v, fairness;
-	STATE real *y, *base, *trial; /* [v][u] */
+	STATE real *y, *base, *trial, *ways; /* [v][u] */
 	GLOBAL const real *lower, *upper;
 	GLOBAL const int *first_u, *first_v; /* the first pole a sample sees */
 	GLOBAL const scalar *table_u, *table_v;

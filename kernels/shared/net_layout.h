@@ -21,6 +21,9 @@ enum {
 	NET_ARRAY_COUNT
 };
 
+/* Nets of working state: y, base, trial and the remembered ways. */
+#define NET_STATE_COUNT (3 + SEARCH_WAYS - 1)
+
 /* One value a search each, beyond SEARCH_SETTING_COUNT. */
 enum {
 	NET_SETTING_ROUNDING = SEARCH_SETTING_COUNT, /* e^2 of sqrt(K^2 + e^2) */

@@ -3,7 +3,8 @@
  * run side by side, one a lane; in OpenCL the work-items of a group share the directions of a colour.
  *
  * Defined before this is included:
- *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
+ *   search_state       nodes; y, base, trial, ways (SEARCH_WAYS - 1 nets): STATE real *; lower,
+ *                      upper: GLOBAL const real *;
  *                      colour_count; whatever the objective needs
  *   search_move        step: real; whatever tells one direction from another
  *   void move_begin(const search_state *, int colour, int direction, search_move *)
@@ -21,6 +22,18 @@
 #include "dialect.h"
 #include "multilevel.h"
 #include "search_layout.h"
+
+/* A pattern move: its objective at y, two probes a way and one for every two, the bottom of the
+ * parabola, and on from there. */
+#define SEARCH_MODEL_PROBES (1 + 2 * SEARCH_WAYS + SEARCH_WAYS * (SEARCH_WAYS - 1) / 2)
+#define SEARCH_PROBE_LIMIT (SEARCH_MODEL_PROBES + PATTERN_LIMIT)
+
+/* A way whose own part of the bend is less than this is what others say already. */
+#if BATTEN_DOUBLE
+#define SEARCH_PIVOT LITERAL(1e-8)
+#else
+#define SEARCH_PIVOT LITERAL(1e-3)
+#endif
 
 /* What a lane has come to; the same in every work-item. */
 typedef struct search_progress {
@@ -92,13 +105,18 @@ SHARED_FUNCTION real search_sweep(const search_state *s, real h, real *extra)
 	return longest;
 }
 
-/* y + factor (y - base), kept in the box, into trial. */
-SHARED_FUNCTION void search_extrapolate(const search_state *s, real factor)
+/* y and on along this iteration's way, y - base, and the remembered ones, kept in the box, into
+ * trial. */
+SHARED_FUNCTION void search_extrapolate(const search_state *s, const real *factors)
 {
 	ROLLED
-	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->trial[n] = move_clamped(s->y[n], factor * (s->y[n] - s->base[n]), s->lower[n],
-		                           s->upper[n]);
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
+		real step = factors[0] * (s->y[n] - s->base[n]);
+		ROLLED
+		for (int w = 1; w < SEARCH_WAYS; w++)
+			step += factors[w] * s->ways[(w - 1) * s->nodes + n];
+		s->trial[n] = move_clamped(s->y[n], step, s->lower[n], s->upper[n]);
+	}
 	WAIT;
 }
 
@@ -132,40 +150,151 @@ SHARED_FUNCTION void search_count(search_progress *p, real probes)
 	}
 }
 
-/* The objective at y (factor 0), then the pattern move: on along the iteration's way, doubling while
- * it falls. Lanes that are not `going` keep everything. */
-SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int pattern_limit,
+/* A parabola through the objective over this iteration's way and the remembered ones. */
+typedef struct search_model {
+	real plus[SEARCH_WAYS], slope[SEARCH_WAYS];
+	real bend[SEARCH_WAYS][SEARCH_WAYS]; /* lower triangle */
+} search_model;
+
+/* The ways that probe number `probe` goes: each forth and back, then every two together. */
+SHARED_FUNCTION void search_probe_ways(int probe, int *i, int *j)
+{
+	int pair = probe - 1 - 2 * SEARCH_WAYS;
+	*i = *j = (probe - 1) / 2;
+	if (pair < 0)
+		return;
+	*i = 1;
+	ROLLED
+	for (; pair >= *i; (*i)++)
+		pair -= *i;
+	*j = pair;
+}
+
+/* Takes what probe number `probe` found into the model. */
+SHARED_FUNCTION void search_model_add(search_model *model, int probe, real change)
+{
+	const real half = SPREAD(LITERAL(0.5));
+	int i = 0;
+	int j = 0;
+	search_probe_ways(probe, &i, &j);
+	if (i != j) {
+		model->bend[i][j] = (change - model->plus[i]) - model->plus[j];
+	} else if (probe % 2 == 1) {
+		model->plus[i] = change;
+	} else {
+		model->slope[i] = half * (model->plus[i] - change);
+		model->bend[i][i] = model->plus[i] + change;
+	}
+}
+
+/* The bottom of the model, by L D L^T. A way along which it has none, or that the ones before say
+ * already, is left out. */
+SHARED_FUNCTION void search_model_solve(search_model *model, real *factors)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real most = SPREAD(LITERAL(64.0));
+	real inverse[SEARCH_WAYS];
+	ROLLED
+	for (int i = 0; i < SEARCH_WAYS; i++) {
+		real right = -model->slope[i];
+		real pivot = model->bend[i][i];
+		/* Row i: bend[i][k] becomes L times D. */
+		ROLLED
+		for (int k = 0; k < i; k++) {
+			ROLLED
+			for (int l = 0; l < k; l++)
+				model->bend[i][k] -= (model->bend[i][l] * inverse[l]) * model->bend[k][l];
+			const real part = model->bend[i][k] * inverse[k];
+			pivot -= part * model->bend[i][k];
+			right -= part * factors[k];
+		}
+		const mask sound = pivot > SPREAD(SEARCH_PIVOT) * model->bend[i][i];
+		inverse[i] = CHOOSE(sound, one / CHOOSE(sound, pivot, one), zero);
+		factors[i] = right;
+	}
+	ROLLED
+	for (int i = SEARCH_WAYS - 1; i >= 0; i--) {
+		real right = factors[i];
+		ROLLED
+		for (int j = i + 1; j < SEARCH_WAYS; j++)
+			right -= model->bend[j][i] * factors[j];
+		const real bottom = right * inverse[i];
+		factors[i] = CHOOSE(bottom > most, most, CHOOSE(bottom < -most, -most, bottom));
+	}
+}
+
+/* Where the next probe goes. */
+SHARED_FUNCTION void search_probe_place(search_model *model, int probe, const real *best,
+                                        real *factors)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	int i = 0;
+	int j = 0;
+	if (probe == SEARCH_MODEL_PROBES)
+		search_model_solve(model, factors);
+	if (probe == 0 || probe == SEARCH_MODEL_PROBES)
+		return;
+	search_probe_ways(probe, &i, &j);
+	const real sign = i == j && probe % 2 == 0 ? -one : one;
+	ROLLED
+	for (int w = 0; w < SEARCH_WAYS; w++)
+		if (probe < SEARCH_MODEL_PROBES)
+			factors[w] = w == i || w == j ? sign : zero;
+		else
+			factors[w] = SPREAD(LITERAL(2.0)) * best[w];
+}
+
+/* The objective at y, then the pattern move: probes along this iteration's way and the remembered
+ * ones, the bottom of the parabola through them, and on from the best of all, doubling while the
+ * objective falls. Lanes that are not `going` keep everything. */
+SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int probe_limit, int slot,
                                     search_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	real factor = zero;
-	real best = zero;
+	const mask moved = going;
+	search_model model;
+	real factors[SEARCH_WAYS];
+	real best[SEARCH_WAYS];
+	real origin = zero;
 	real probes = zero;
 	ROLLED
-	for (int turn = 0; turn <= pattern_limit; turn++) {
-		search_extrapolate(s, factor);
+	for (int w = 0; w < SEARCH_WAYS; w++)
+		factors[w] = best[w] = zero;
+	ROLLED
+	for (int probe = 0; probe <= probe_limit; probe++) {
+		search_probe_place(&model, probe, best, factors);
+		search_extrapolate(s, factors);
 		const real found = whole_objective(s);
-		if (turn == 0) {
+		if (probe == 0) {
+			origin = found;
 			p->objective = CHOOSE(going, found, p->objective);
-			factor = SPREAD(LITERAL(1.0));
 			continue;
 		}
 		probes += CHOOSE(going, SPREAD(LITERAL(1.0)), zero);
-		going = going & (found < p->objective - SPREAD(GAIN_FLOOR) * p->objective);
-		p->objective = CHOOSE(going, found, p->objective);
-		best = CHOOSE(going, factor, best);
-		factor *= SPREAD(LITERAL(2.0));
+		if (probe < SEARCH_MODEL_PROBES)
+			search_model_add(&model, probe, found - origin);
+		const mask gain = going & (found < p->objective - SPREAD(GAIN_FLOOR) * p->objective);
+		p->objective = CHOOSE(gain, found, p->objective);
+		ROLLED
+		for (int w = 0; w < SEARCH_WAYS; w++)
+			best[w] = CHOOSE(gain, factors[w], best[w]);
+		if (probe <= SEARCH_MODEL_PROBES)
+			continue;
+		going = gain;
 		if (!ANY(going))
 			break;
 	}
 	search_count(p, probes);
-	if (ANY(best > zero)) {
-		search_extrapolate(s, best);
-		ROLLED
-		for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-			s->y[n] = CHOOSE(best > zero, s->trial[n], s->y[n]);
-		WAIT;
+	search_extrapolate(s, best);
+	ROLLED
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
+		STATE real *way = s->ways + slot * s->nodes + n;
+		s->y[n] = s->trial[n];
+		*way = CHOOSE(moved, s->y[n] - s->base[n], *way);
 	}
+	WAIT;
 }
 
 /* One iteration of the lanes that are active. Turn 0 only evaluates the start. */
@@ -189,7 +318,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 		p->moves += CHOOSE(going, one, zero);
 	}
 	if (ANY(going))
-		search_pattern(s, going, turn > 0 ? PATTERN_LIMIT : 0, p);
+		search_pattern(s, going, turn > 0 ? SEARCH_PROBE_LIMIT : 0, turn % (SEARCH_WAYS - 1), p);
 	if (turn == 0)
 		return;
 	p->step = CHOOSE(active & (longest < p->step), p->step * SPREAD(LITERAL(0.5)), p->step);
@@ -210,6 +339,9 @@ SHARED_FUNCTION void search_run(const search_state *s, int iteration_limit,
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
 		s->y[n] = values[n];
+	ROLLED
+	for (int n = WORK_ITEM; n < (SEARCH_WAYS - 1) * s->nodes; n += WORK_ITEMS)
+		s->ways[n] = zero;
 	WAIT;
 	ROLLED
 	for (int turn = 0;; turn++) {
