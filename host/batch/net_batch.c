@@ -1,5 +1,6 @@
 #include "batch/net_batch.h"
 
+#include "batch/net_engine.h"
 #include "batch/net_reference.h"
 #include "batch/search_result.h"
 #include "batch/workers.h"
@@ -8,6 +9,23 @@ typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
 	const net_plan *plan;
 } batch;
+
+static batten_status open_engine(batch_work *work, size_t index, const batten_device *device,
+                                 batch_engine **out)
+{
+	return net_engine_open(((const batch *)work)->plan, index, device, out, NULL);
+}
+
+static size_t block_of(const batch_work *work, const batch_engine *engine)
+{
+	return net_engine_block(engine, ((const batch *)work)->plan);
+}
+
+static batten_status run_block(batch_work *work, batch_engine *engine, const size_t *which,
+                               size_t count)
+{
+	return net_engine_run(engine, ((const batch *)work)->plan, which, count);
+}
 
 static batten_status run_on_reference(batch_work *work)
 {
@@ -25,7 +43,10 @@ static batten_status run_stretch(net_plan *plan, int stretch, search_weights *we
                                  size_t *order, batten_run *run)
 {
 	batch b = { .work = { .context = plan->context,
-		                  .device = BATTEN_DEVICE_REFERENCE,
+		                  .device = plan->options.device,
+		                  .open = open_engine,
+		                  .block = block_of,
+		                  .run = run_block,
 		                  .run_reference = run_on_reference },
 		        .plan = plan };
 	size_t sound = 0;

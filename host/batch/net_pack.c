@@ -33,6 +33,16 @@ static double kept(const net_plan *plan, double value)
 	return plan->options.precision == BATTEN_F64 ? value : (double)(float)value;
 }
 
+void net_pack_shape(const net_plan *plan, int32_t shape[NET_SHAPE_SIZE])
+{
+	shape[NET_SHAPE_COLUMNS] = (int32_t)plan->u.poles;
+	shape[NET_SHAPE_ROWS] = (int32_t)plan->v.poles;
+	shape[NET_SHAPE_LENGTH] = (int32_t)plan->u.count;
+	shape[NET_SHAPE_LINES] = (int32_t)plan->v.count;
+	shape[NET_SHAPE_COLOURS] = (int32_t)plan->directions.colour_count;
+	shape[NET_SHAPE_ITERATIONS] = (int32_t)plan->options.iteration_limit;
+}
+
 size_t net_pack_table_count(const net_plan *plan)
 {
 	return plan->u.count * NET_TABLE_SIZE(plan->u.order) +

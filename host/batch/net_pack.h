@@ -5,6 +5,8 @@
 
 #include "batch/net_plan.h"
 
+void net_pack_shape(const net_plan *plan, int32_t shape[NET_SHAPE_SIZE]);
+
 /* Tables along u, then along v; heights of the members. */
 size_t net_pack_table_count(const net_plan *plan);
 void net_pack_tables(const net_plan *plan, void *tables);

@@ -43,15 +43,12 @@ void net_reference_run(net_reference *reference, size_t which)
 {
 	const net_plan *plan = reference->plan;
 	const net_directions *d = &plan->directions;
+	int32_t shape[NET_SHAPE_SIZE];
+	net_pack_shape(plan, shape);
 	const reference_net_search shared = { .order_u = (int)plan->u.order,
 		                                  .order_v = (int)plan->v.order,
 		                                  .fairness = plan->fairness,
-		                                  .columns = (int)plan->u.poles,
-		                                  .rows = (int)plan->v.poles,
-		                                  .length = (int)plan->u.count,
-		                                  .lines = (int)plan->v.count,
-		                                  .colour_count = (int)d->colour_count,
-		                                  .iteration_limit = (int)plan->options.iteration_limit,
+		                                  .shape = shape,
 		                                  .first_u = plan->u.first,
 		                                  .first_v = plan->v.first,
 		                                  .colours = d->colours,

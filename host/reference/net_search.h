@@ -8,9 +8,7 @@
 /* What all searches of a batch share, beyond the tables. */
 typedef struct reference_net_search {
 	int order_u, order_v, fairness;
-	int columns, rows; /* poles along u, along v */
-	int length, lines; /* samples along u, along v */
-	int colour_count, iteration_limit;
+	const int32_t *shape; /* NET_SHAPE_SIZE */
 	const int32_t *first_u, *first_v;
 	const int32_t *colours, *directions, *members;
 } reference_net_search;

@@ -20,13 +20,14 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
                          const scalar *heights, const scalar *samples, scalar *arrays,
                          const scalar *settings, scalar *outcome, scalar *scratch)
 {
-	const int nodes = shared->columns * shared->rows;
+	const int32_t *shape = shared->shape;
+	const int nodes = shape[NET_SHAPE_COLUMNS] * shape[NET_SHAPE_ROWS];
 	const search_state s = {
 		.nodes = nodes,
-		.columns = shared->columns,
-		.lines = shared->lines,
-		.length = shared->length,
-		.colour_count = shared->colour_count,
+		.columns = shape[NET_SHAPE_COLUMNS],
+		.lines = shape[NET_SHAPE_LINES],
+		.length = shape[NET_SHAPE_LENGTH],
+		.colour_count = shape[NET_SHAPE_COLOURS],
 		.order_u = shared->order_u,
 		.order_v = shared->order_v,
 		.fairness = shared->fairness,
@@ -38,7 +39,7 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 		.first_u = shared->first_u,
 		.first_v = shared->first_v,
 		.table_u = tables,
-		.table_v = tables + shared->length * NET_TABLE_SIZE(shared->order_u),
+		.table_v = tables + shape[NET_SHAPE_LENGTH] * NET_TABLE_SIZE(shared->order_u),
 		.colours = shared->colours,
 		.directions = shared->directions,
 		.members = shared->members,
@@ -49,7 +50,7 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 		.rounding = settings[NET_SETTING_ROUNDING],
 	};
 	scalar gathered[2];
-	search_run(&s, shared->iteration_limit, settings, arrays, outcome, gathered);
+	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays, outcome, gathered);
 }
 
 #if defined(__x86_64__)

@@ -13,6 +13,7 @@
 #include "surface_variation.h"
 
 #define NET_THIRD (NET_FAIRNESS == NET_FAIRNESS_VARIATION)
+#define NET_SAMPLE_NUMBERS (NET_THIRD ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE)
 
 typedef struct search_state {
 	int nodes;         /* poles */
@@ -176,7 +177,7 @@ SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const re
 SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real *y, int line,
                                         int sample, int sample_end)
 {
-	const int size = NET_THIRD ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE;
+	const int size = NET_SAMPLE_NUMBERS;
 	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
 	GLOBAL const real *at = s->samples + (size_t)(line * s->length) * (size_t)size;
 	const STATE real *row = y + s->first_v[line] * s->columns;

@@ -13,6 +13,17 @@ enum { NET_ORDER_MOST = 8 };
 #define NET_FAIRNESS_GAUSS 2
 #define NET_FAIRNESS_VARIATION 3
 
+/* What all searches of a launch share. */
+enum {
+	NET_SHAPE_COLUMNS, /* poles along u */
+	NET_SHAPE_ROWS,    /* poles along v */
+	NET_SHAPE_LENGTH,  /* samples along u */
+	NET_SHAPE_LINES,   /* samples along v */
+	NET_SHAPE_COLOURS,
+	NET_SHAPE_ITERATIONS, /* at most */
+	NET_SHAPE_SIZE
+};
+
 /* Arrays of a search, one value a pole each. */
 enum {
 	NET_ARRAY_Y, /* the way from the target: small numbers, so that f32 keeps their digits */

@@ -173,7 +173,6 @@ SHARED_FUNCTION void search_probe_ways(int probe, int *i, int *j)
 /* Takes what probe number `probe` found into the model. */
 SHARED_FUNCTION void search_model_add(search_model *model, int probe, real change)
 {
-	const real half = SPREAD(LITERAL(0.5));
 	int i = 0;
 	int j = 0;
 	search_probe_ways(probe, &i, &j);
@@ -182,7 +181,7 @@ SHARED_FUNCTION void search_model_add(search_model *model, int probe, real chang
 	} else if (probe % 2 == 1) {
 		model->plus[i] = change;
 	} else {
-		model->slope[i] = half * (model->plus[i] - change);
+		model->slope[i] = SPREAD(LITERAL(0.5)) * (model->plus[i] - change);
 		model->bend[i][i] = model->plus[i] + change;
 	}
 }
