@@ -104,6 +104,38 @@ static void read_offsets(struct work *work)
 	}
 }
 
+/* Whether the line of a line end is locked. */
+static bool is_end_locked(const struct work *work, const hull_line_end *end)
+{
+	const batten_hull *hull = work->fairing->smoothed;
+	for (size_t l = 0; l < work->options->lock_count; l++) {
+		const batten_lock *lock = &work->options->locks[l];
+		if (end->on_waterline ? lock->kind == BATTEN_LOCK_WATERLINE &&
+		                            hull_waterline_at(hull, lock->z_m) == end->line
+		                      : lock->kind == BATTEN_LOCK_STATION &&
+		                            hull_station_at(hull, lock->x_m) == end->line)
+			return true;
+	}
+	return false;
+}
+
+/* The line ends off the table, as a transom has them: lines would have a kink before one that did
+ * not move with them. */
+static void read_ends(struct work *work)
+{
+	batten_fairing *fairing = work->fairing;
+	batten_hull *faired = fairing->faired;
+	for (size_t e = 0; e < faired->end_count; e++) {
+		const struct net_place *at = &work->places[hull_node_count(faired) + e];
+		hull_line_end *end = &faired->ends[e];
+		if (!(end->y_m > 0.0) || at->kind == NET_PLACE_NONE || is_end_locked(work, end))
+			continue;
+		const double y = net_place_y(at, fairing->fitted_surface, fairing->faired_surface);
+		if (y > 0.0)
+			end->y_m = y;
+	}
+}
+
 static void count_poles(struct work *work)
 {
 	batten_fairing *fairing = work->fairing;
@@ -203,6 +235,7 @@ batten_status fair_net(batten_fairing *fairing, const batten_fair_options *optio
 		status = measure(&work);
 	if (status == BATTEN_OK) {
 		read_offsets(&work);
+		read_ends(&work);
 		count_poles(&work);
 	}
 	net_box_release(fairing->context, &work.box);

@@ -173,7 +173,8 @@ batten_status net_places_find(const batten_hull *hull, const struct batten_surfa
 	struct net_place *places = NULL;
 	batten_status status = search_create(surface, &search);
 	if (status == BATTEN_OK) {
-		places = batten_allocate(hull->context, hull_node_count(hull), sizeof *places);
+		places = batten_allocate(hull->context, hull_node_count(hull) + hull->end_count,
+		                         sizeof *places);
 		status = places ? BATTEN_OK : BATTEN_MEMORY;
 	}
 	if (status == BATTEN_OK) {
@@ -185,6 +186,13 @@ batten_status net_places_find(const batten_hull *hull, const struct batten_surfa
 			const bool before = n % nx > 0 && places[n - 1].kind != NET_PLACE_NONE;
 			const struct net_place *below = n >= nx ? &places[n - nx] : NULL;
 			find(&search, place, close, reach_m, before ? &places[n - 1] : below, &places[n]);
+		}
+		for (size_t e = 0; e < hull->end_count; e++) {
+			const hull_line_end *end = &hull->ends[e];
+			const double place[3] = { end->on_waterline ? end->along_m : hull->x_m[end->line],
+				                      end->y_m,
+				                      end->on_waterline ? hull->z_m[end->line] : end->along_m };
+			find(&search, place, close, reach_m, NULL, &places[hull_node_count(hull) + e]);
 		}
 		*out = places;
 	}

@@ -18,7 +18,8 @@ struct net_place {
 	double edge_u, edge_v; /* the same within the range */
 };
 
-/* The place of every node of the hull, [waterlines][stations], released by the caller. A node
+/* The place of every node of the hull, [waterlines][stations], and after them of every line end off
+ * the table, released by the caller. A node
  * beyond an edge has one when that edge is no further than reach_m, seen along y. Of several
  * places at one x and z the one whose y is nearest to the node's is taken. Errors: MEMORY. */
 batten_status net_places_find(const batten_hull *hull, const struct batten_surface *surface,

@@ -689,7 +689,7 @@ typedef struct batten_net_problem {
 
 typedef struct batten_net_options {
 	size_t struct_size;
-	batten_search_options search;
+	batten_search_options search; /* first_step 0.01, else as its own default */
 	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING */
 	unsigned gauss_points;    /* a knot span and direction, 1..16; 0 takes the order */
 	/* [count_v][count_u], the same for the whole batch: index (row * count_u + column) of the pole
@@ -746,7 +746,7 @@ typedef struct batten_lock {
  * points).
  *
  * The faired hull has the half-breadths of the faired surface at the stations and waterlines of the
- * table. Kept as they are: profile zeros, '?' cells (filled anew), line ends off the table, locked
+ * table and at line ends off it. Kept as they are: profile zeros, '?' cells (filled anew), locked
  * offsets (below), and offsets that lie off the surface, seen along y, by more than the largest
  * deviation of the fit. One beyond an edge, but no further than that, takes the surface as it goes
  * on there and the movement of the edge. */

@@ -1,6 +1,8 @@
 /* Fairing by the control net of a surface: what is held, what is kept, what becomes fairer. */
 #include "unit/fit_fixture.h"
 
+#include "hull/hull.h"
+
 static batten_fair_options net_options(size_t count_u, size_t count_v)
 {
 	batten_fair_options options;
@@ -148,6 +150,34 @@ static void test_chosen_nets(void **state)
 		batten_fairing_destroy(fairing);
 		batten_hull_destroy(hull);
 	}
+}
+
+/* A transom's line ends, which lie off the table, move with the offsets beside them: no waterline
+ * has a kink there. */
+static void test_line_ends(void **state)
+{
+	batten_hull *hull = read_hull(*state, "highspeed_craft");
+	batten_fair_options options = net_options(0, 0);
+	batten_fairing *fairing = fair(*state, hull, &options);
+	const batten_hull *smoothed = batten_fairing_smoothed(fairing);
+	const batten_hull *faired = batten_fairing_faired(fairing);
+	size_t compared = 0;
+	double largest = 0.0;
+	for (size_t e = 0; e < smoothed->end_count; e++) {
+		const hull_line_end *end = &smoothed->ends[e];
+		const size_t first = end->line * smoothed->station_count;
+		if (!end->on_waterline || end->along_m > smoothed->x_m[0] ||
+		    smoothed->x_m[0] - end->along_m > 0.1 || !(end->y_m > 0.0))
+			continue;
+		const double moved_end = faired->ends[e].y_m - end->y_m;
+		assert_near(moved_end, faired->y_m[first] - smoothed->y_m[first], 0.003,
+		            "movement of a line end");
+		largest = fmax(largest, fabs(moved_end));
+		compared++;
+	}
+	assert_true(compared > 0 && largest > 0.006);
+	batten_fairing_destroy(fairing);
+	batten_hull_destroy(hull);
 }
 
 /* Rows, columns, poles and edges of the net. */
@@ -473,6 +503,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_exact_wigley_stays, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_noise_goes, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_chosen_nets, make_context, end_context),
+		cmocka_unit_test_setup_teardown(test_line_ends, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_net_locks, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_table_locks, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_fixed_tangents, make_context, end_context),
