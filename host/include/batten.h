@@ -690,8 +690,8 @@ typedef struct batten_net_problem {
 typedef struct batten_net_options {
 	size_t struct_size;
 	batten_search_options search; /* first_step 0.01, else as its own default */
-	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING */
-	unsigned gauss_points;    /* a knot span and direction, 1..16; 0 takes the order */
+	batten_fairness fairness;     /* BATTEN_FAIRNESS_BENDING */
+	unsigned gauss_points;        /* a knot span and direction, 1..16; 0 takes the order */
 	/* [count_v][count_u], the same for the whole batch: index (row * count_u + column) of the pole
 	 * that a pole moves with, both by the same distance, which stays in the boxes of both; its own
 	 * index: the pole is free or leads. NULL: all are free. An edge keeps its tangents when the row
