@@ -1,11 +1,8 @@
 /* batten_search_batch: one queue of searches, one worker a device, or the C path's threads. */
 #include "batch/search_engine.h"
 #include "batch/search_reference.h"
+#include "batch/search_result.h"
 #include "batch/workers.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
@@ -54,34 +51,18 @@ static batten_status run_on_reference(batch_work *work)
 	return status;
 }
 
-static int compare_ratios(const void *left, const void *right, void *problems)
-{
-	const batten_search_problem *p = problems;
-	const size_t a = *(const size_t *)left;
-	const size_t b = *(const size_t *)right;
-	/* w2/w1 without dividing: w1 may be 0. */
-	const double ratio_a = p[a].w2 * p[b].w1;
-	const double ratio_b = p[b].w2 * p[a].w1;
-	if (ratio_a != ratio_b)
-		return ratio_a < ratio_b ? -1 : 1;
-	return a < b ? -1 : a > b;
-}
-
-/* The sound problems, those of like stiffness side by side: they end after about as many iterations,
- * so that few lanes run idle. */
-static size_t order_problems(const batch *b, size_t count, size_t *order)
+/* The sound problems in the order they are handed out. */
+static size_t order_problems(const batch *b, size_t count, search_weights *weights, size_t *order)
 {
 	size_t sound = 0;
 	for (size_t p = 0; p < count; p++) {
 		const char *fault = search_problem_fault(b->plan, &b->problems[p]);
-		if (fault) {
-			b->results[p] = (batten_search_result){ .end = BATTEN_SEARCH_REFUSED };
-			(void)snprintf(b->results[p].message, sizeof b->results[p].message, "%s", fault);
-		} else {
-			order[sound++] = p;
-		}
+		if (fault)
+			b->results[p] = search_result_refused(fault);
+		else
+			weights[sound++] = (search_weights){ b->problems[p].w1, b->problems[p].w2, p };
 	}
-	qsort_r(order, sound, sizeof *order, compare_ratios, (void *)b->problems);
+	search_order(weights, sound, order);
 	return sound;
 }
 
@@ -104,15 +85,18 @@ static batten_status run_batch(batch *b, size_t count, batten_run *run)
 {
 	batten_context *context = b->work.context;
 	size_t *order = batten_allocate(context, count, sizeof *order);
-	if (!order)
-		return BATTEN_MEMORY;
-	batten_status status = work_queue_create(context, order, order_problems(b, count, order),
-	                                         &b->work.queue);
+	search_weights *weights = batten_allocate(context, count, sizeof *weights);
+	batten_status status = order && weights ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK) {
+		const size_t sound = order_problems(b, count, weights, order);
+		status = work_queue_create(context, order, sound, &b->work.queue);
+	}
 	if (status == BATTEN_OK)
 		status = batch_work_run(&b->work, run);
 	if (status == BATTEN_OK)
 		status = count_probes(b, count);
 	work_queue_release(context, &b->work.queue);
+	batten_release(context, weights);
 	batten_release(context, order);
 	return status;
 }
@@ -142,10 +126,5 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 		return status;
 	if (run)
 		*run = told;
-	for (size_t p = 0; p < count; p++)
-		if (results[p].end == BATTEN_SEARCH_REFUSED || results[p].end == BATTEN_SEARCH_LIMIT)
-			return batten_fail(context, BATTEN_INCOMPLETE, "search %zu of %zu: %s%s%s", p, count,
-			                   batten_search_end_text(results[p].end),
-			                   results[p].message[0] ? ": " : "", results[p].message);
-	return BATTEN_OK;
+	return search_results_judge(context, count, results);
 }

@@ -1,7 +1,8 @@
 #include "batch/search_pack.h"
 
+#include "batch/search_result.h"
+
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define BATTEN_DIALECT_C
@@ -101,13 +102,6 @@ void search_pack(const search_plan *plan, const batten_search_problem *problem, 
 	    plan->options.last_step * problem->half_beam_m);
 }
 
-static batten_search_end end_of(double moves, double step, double last_step)
-{
-	if (step > last_step)
-		return BATTEN_SEARCH_LIMIT;
-	return moves == 0.0 ? BATTEN_SEARCH_STATIONARY : BATTEN_SEARCH_CONVERGED;
-}
-
 /* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */
 static double end_of_node(const search_plan *plan, const batten_search_problem *problem,
                           size_t node, double found)
@@ -135,20 +129,5 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
 		values[v] = get(plan, outcome, v * lanes + lane);
-	const double last_step = plan->options.last_step * problem->half_beam_m;
-	const double compared = plan->options.precision == BATTEN_F64 ? last_step
-	                                                              : (double)(float)last_step;
-	*result = (batten_search_result){
-		.end = end_of(values[SEARCH_OUTCOME_MOVES], values[SEARCH_OUTCOME_STEP], compared),
-		.iterations = (unsigned)values[SEARCH_OUTCOME_ITERATIONS],
-		.probes = ((uint64_t)values[SEARCH_OUTCOME_EXTRA_HIGH] << 20) +
-		          (uint64_t)values[SEARCH_OUTCOME_EXTRA_LOW],
-		.objective_start = values[SEARCH_OUTCOME_START],
-		.objective_end = values[SEARCH_OUTCOME_END],
-		.last_step_m = values[SEARCH_OUTCOME_STEP],
-	};
-	if (!isfinite(result->objective_start) || !isfinite(result->objective_end)) {
-		result->end = BATTEN_SEARCH_REFUSED;
-		(void)snprintf(result->message, sizeof result->message, "the objective is not finite");
-	}
+	*result = search_result_of(&plan->options, problem->half_beam_m, values);
 }

@@ -49,26 +49,33 @@ static int hat_width(double wanted, size_t count)
 	return width;
 }
 
-/* Hats grow in physical width, not in nodes: the energy couples neighbours strongly only along the
- * finer direction, and widening the other with it converges several times slower. They grow until
- * both directions are spanned. */
+int search_widths_choose(size_t count_a, double spacing_a, size_t count_b, double spacing_b,
+                         search_width widths[SEARCH_LEVEL_LIMIT])
+{
+	const double finest = fmin(spacing_a, spacing_b) * (1.0 + 1e-9);
+	const double span_a = spacing_a * 0.5 * (double)(count_a - 1);
+	const double span_b = spacing_b * 0.5 * (double)(count_b - 1);
+	int levels = 0;
+	for (int doublings = 0; levels < SEARCH_LEVEL_LIMIT; doublings++) {
+		const double width = ldexp(finest, doublings);
+		const search_width level = { hat_width(width / spacing_a, count_a),
+			                         hat_width(width / spacing_b, count_b) };
+		if (levels == 0 || level.a != widths[levels - 1].a || level.b != widths[levels - 1].b)
+			widths[levels++] = level;
+		if (width >= span_a && width >= span_b)
+			break;
+	}
+	return levels;
+}
+
 static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
 {
-	const double finest = fmin(spacing_x, spacing_z) * (1.0 + 1e-9);
-	const double span_x = spacing_x * 0.5 * (double)(plan->station_count - 1);
-	const double span_z = spacing_z * 0.5 * (double)(plan->waterline_count - 1);
-	for (int doublings = 0; plan->level_count < SEARCH_LEVEL_LIMIT; doublings++) {
-		const double width = ldexp(finest, doublings);
-		const search_level level = {
-			.width_x = hat_width(width / spacing_x, plan->station_count),
-			.width_z = hat_width(width / spacing_z, plan->waterline_count),
-		};
-		const search_level *before = plan->levels + plan->level_count - 1;
-		if (plan->level_count == 0 || level.width_x != before->width_x ||
-		    level.width_z != before->width_z)
-			plan->levels[plan->level_count++] = level;
-		if (width >= span_x && width >= span_z)
-			break;
+	search_width widths[SEARCH_LEVEL_LIMIT];
+	plan->level_count = search_widths_choose(plan->station_count, spacing_x, plan->waterline_count,
+	                                         spacing_z, widths);
+	for (int l = 0; l < plan->level_count; l++) {
+		plan->levels[l].width_x = widths[l].a;
+		plan->levels[l].width_z = widths[l].b;
 	}
 }
 
@@ -91,7 +98,7 @@ static bool direction_moves(const search_plan *plan, const uint8_t *movable,
 	return false;
 }
 
-static size_t centre_count(size_t count, int width)
+size_t search_centre_count(size_t count, int width)
 {
 	return (count - 1 + (size_t)width - 1) / (size_t)width + 1;
 }
@@ -100,8 +107,8 @@ static size_t centre_count(size_t count, int width)
 static size_t add_colour(const search_plan *plan, const search_level *level, size_t colour,
                          const uint8_t *movable, int32_t *centres)
 {
-	const size_t along_x = centre_count(plan->station_count, level->width_x);
-	const size_t along_z = centre_count(plan->waterline_count, level->width_z);
+	const size_t along_x = search_centre_count(plan->station_count, level->width_x);
+	const size_t along_z = search_centre_count(plan->waterline_count, level->width_z);
 	size_t added = 0;
 	for (size_t b = colour / 3; b < along_z; b += 3)
 		for (size_t a = colour % 3; a < along_x; a += 3) {
@@ -177,8 +184,7 @@ static bool is_lane_count(unsigned lanes)
 	return lanes <= 16 && (lanes & (lanes - 1)) == 0;
 }
 
-/* Replaces every 0 that stands for "choose". Lanes and work-group are chosen per device later. */
-static batten_status check_options(batten_context *context, const batten_search_options *given,
+batten_status search_options_check(batten_context *context, const batten_search_options *given,
                                    batten_search_options *chosen)
 {
 	batten_search_options_default(chosen);
@@ -248,7 +254,7 @@ batten_status search_plan_create(batten_context *context, const batten_grid *gri
 	if (!plan)
 		return BATTEN_MEMORY;
 	plan->context = context;
-	status = check_options(context, options, &plan->options);
+	status = search_options_check(context, options, &plan->options);
 	if (status == BATTEN_OK && plan->options.precision == BATTEN_F32 &&
 	    grid->station_count * grid->waterline_count > F32_NODE_LIMIT)
 		status = batten_fail(context, BATTEN_USAGE,
@@ -279,26 +285,35 @@ void search_plan_destroy(search_plan *plan)
 	batten_release(context, plan);
 }
 
-/* Whether a number keeps its worth in the plan's precision, its fourth power with it. */
-static bool is_length(const search_plan *plan, double length)
+/* Whether a number keeps its worth in the precision, its fourth power with it. */
+static bool is_length(batten_precision precision, double length)
 {
-	return plan->options.precision == BATTEN_F64 ? length >= 1e-60 && length <= 1e60
-	                                             : length >= 1e-7 && length <= 1e7;
+	return precision == BATTEN_F64 ? length >= 1e-60 && length <= 1e60
+	                               : length >= 1e-7 && length <= 1e7;
 }
 
-static bool is_weight(const search_plan *plan, double weight)
+static bool is_weight(batten_precision precision, double weight)
 {
-	const double most = plan->options.precision == BATTEN_F64 ? WEIGHT_LIMIT : 1e20;
+	const double most = precision == BATTEN_F64 ? WEIGHT_LIMIT : 1e20;
 	return weight == 0.0 || (weight >= 1.0 / most && weight <= most);
+}
+
+const char *search_weights_fault(batten_precision precision, double w1, double w2,
+                                 double half_beam_m)
+{
+	if (!is_weight(precision, w1) || !is_weight(precision, w2) || w1 + w2 == 0.0)
+		return "weights: 0 or 1e-100 to 1e100 (1e-20 to 1e20 in f32), not both 0";
+	if (!is_length(precision, half_beam_m))
+		return "half-beam: 1e-60 to 1e60 m (1e-7 to 1e7 m in f32) is expected";
+	return NULL;
 }
 
 const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem)
 {
-	if (!is_weight(plan, problem->w1) || !is_weight(plan, problem->w2) ||
-	    problem->w1 + problem->w2 == 0.0)
-		return "weights: 0 or 1e-100 to 1e100 (1e-20 to 1e20 in f32), not both 0";
-	if (!is_length(plan, problem->half_beam_m))
-		return "half-beam: 1e-60 to 1e60 m (1e-7 to 1e7 m in f32) is expected";
+	const char *fault = search_weights_fault(plan->options.precision, problem->w1, problem->w2,
+	                                         problem->half_beam_m);
+	if (fault)
+		return fault;
 	const size_t nodes = plan->station_count * plan->waterline_count;
 	for (size_t n = 0; n < nodes; n++) {
 		if (problem->nodes && problem->nodes[n] == BATTEN_NODE_OUTSIDE)

@@ -31,6 +31,31 @@ typedef struct search_plan {
 	batten_search_options options; /* with every 0 replaced by what it chooses */
 } search_plan;
 
+/* Widths of a level's hats in nodes along two directions. */
+typedef struct search_width {
+	int a, b;
+} search_width;
+
+/* The levels of hats for so many nodes at such a spacing, fine to coarse. Hats grow in physical width,
+ * not in nodes: the energy couples neighbours strongly only along the finer direction, and widening
+ * the other with it converges several times slower. They grow until both directions are spanned.
+ * Returns the number of levels. */
+int search_widths_choose(size_t count_a, double spacing_a, size_t count_b, double spacing_b,
+                         search_width widths[SEARCH_LEVEL_LIMIT]);
+
+/* Hats of a width that it takes to span so many nodes; their centres lie `width` apart from node 0 on,
+ * the last one perhaps beyond. */
+size_t search_centre_count(size_t count, int width);
+
+/* Takes the defaults where given is NULL, checks them and replaces every 0 that stands for "choose".
+ * Lanes and work-group are chosen per device later. Errors: USAGE. */
+batten_status search_options_check(batten_context *context, const batten_search_options *given,
+                                   batten_search_options *chosen);
+
+/* Why these cannot be searched with in the precision, or NULL. */
+const char *search_weights_fault(batten_precision precision, double w1, double w2,
+                                 double half_beam_m);
+
 /* Checks the batch and lays it out. The directions are those that can move a node of at least one of
  * the problems. Errors: USAGE, MEMORY. */
 batten_status search_plan_create(batten_context *context, const batten_grid *grid, size_t count,

@@ -1,4 +1,5 @@
 /* batten_device_selftest: every kernel in the shape a device would run it in. */
+#include "batch/net_engine.h"
 #include "batch/search_engine.h"
 #include "batch/surface_engine.h"
 
@@ -34,6 +35,19 @@ static batten_status test_surfaces(batten_context *context, size_t index,
 	return surface_engine_open(&plan, index, device, &engine, result);
 }
 
+static batten_status test_nets(batten_context *context, size_t index, const batten_device *device,
+                               batten_precision precision, batten_selftest *result)
+{
+	/* The commonest: bending of a bicubic hull. */
+	const net_plan plan = { .context = context,
+		                    .options = { .precision = precision },
+		                    .fairness = NET_FAIRNESS_BENDING,
+		                    .u = { .order = 4 },
+		                    .v = { .order = 4 } };
+	batch_engine *engine = NULL;
+	return net_engine_open(&plan, index, device, &engine, result);
+}
+
 batten_status batten_device_selftest(batten_context *context, size_t index,
                                      batten_selftest *results, size_t capacity, size_t *count)
 {
@@ -42,10 +56,10 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	if (status != BATTEN_OK)
 		return status;
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
-	static batten_status (*const tests[])(batten_context *, size_t, const batten_device *,
-	                                      batten_precision,
-	                                      batten_selftest *) = { test_search, test_surfaces };
-	enum { PRECISIONS = 2, TESTS = 2 };
+	static batten_status (*const tests[])(
+		batten_context *, size_t, const batten_device *, batten_precision,
+		batten_selftest *) = { test_search, test_surfaces, test_nets };
+	enum { PRECISIONS = 2, TESTS = 3 };
 	*count = (size_t)PRECISIONS * TESTS;
 	for (size_t t = 0; t < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,

@@ -55,6 +55,14 @@ batten_status cli_context_create(const char *command, const cli_common *common,
 /* Prints the context's last error, preceded by the subcommand's name; returns status. */
 batten_status cli_failure(const char *command, const batten_context *context, batten_status status);
 
+/* "MxN", both whole numbers below 10000; false for anything else. */
+bool cli_read_pair(const char *text, size_t *first, size_t *second);
+
+/* "keel,stern,stem", "deck" too where that is an edge here, as bits BATTEN_EDGE_...; an error is
+ * printed. */
+batten_status cli_read_edges(const char *command, const char *option, const char *text,
+                             bool with_deck, unsigned *out);
+
 /* Makes one line of a text: control characters, as a path may have them, become '?'. */
 void cli_clean(char *line);
 

@@ -10,19 +10,25 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LOCK_LIMIT = 256 };
-
 static const cli_command command = {
 	.name = "fair",
 	.usage = "HULL.csv [--out DIR] [OPTION ...]",
 	.summary = "replaces gross errors of the offsets, then fairs them by pattern search",
-	.example = "  batten fair data/hulls/npl_parent.csv --out demo\n"
-			   "  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n",
+	.example =
+		"  batten fair data/hulls/npl_parent.csv --out demo\n"
+		"  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n"
+		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
 		"NAME-faired by default. Minimises w1 * bending energy + w2 * closeness / h^4 (h: half-beam) over\n"
 		"the positive offsets; profile points stay. Without weights the change is held to 0.75 of the\n"
-		"noise of the offsets. f32 comes within 3e-4 of the objective that f64 reaches.\n",
+		"noise of the offsets. f32 comes within 3e-4 of the objective that f64 reaches.\n"
+		"--variables net fits a B-spline surface and searches y of its poles; x, z and knots stay. Rows run\n"
+		"along the hull from the keel (0), columns along the girth from the stern (0). Poles stay within\n"
+		"--max-distance of the fit, and so does the surface; station:, waterline: and point: lock all poles\n"
+		"that have a part in the surface there. Poles of edges in the centreplane stay. faired.csv has the\n"
+		"half-breadths of the faired surface, DIR/surface.json the surface in metres, frame ap-fwd; profile\n"
+		"zeros, locked offsets and what lies off the surface keep their numbers (the report counts these).\n",
 };
 
 void fair_warn(fair_job *job, const char *format, ...)
@@ -72,6 +78,20 @@ static batten_status measure_lines(fair_job *job)
 	return status;
 }
 
+static void warn_of_net(fair_job *job)
+{
+	const batten_fairing_net net = batten_fairing_describe_net(job->fairing);
+	const double limit = batten_fairing_describe(job->fairing).max_distance_m;
+	if (net.kept_count > 0)
+		fair_warn(job, "%zu offsets are locked or lie off the surface and kept their numbers",
+		          net.kept_count);
+	if (job->after.to_smoothed.cn_max_m > limit)
+		fair_warn(job,
+		          "an offset lies %.3g m from the smoothed hull, beyond the distance limit of %.3g "
+		          "m: that holds against the fitted surface, itself up to %.3g m off the offsets",
+		          job->after.to_smoothed.cn_max_m, limit, net.deviation.max_m);
+}
+
 /* What a naval architect wants to be told before using the result. */
 static void warn_of_changes(fair_job *job)
 {
@@ -86,6 +106,8 @@ static void warn_of_changes(fair_job *job)
 	if (job->after.to_input.cn_max_m > 0.002)
 		fair_warn(job, "an offset changed by %.1f mm (more than 2 mm at the file's scale)",
 		          1000.0 * job->after.to_input.cn_max_m);
+	if (job->options.variables == BATTEN_VARIABLES_NET)
+		warn_of_net(job);
 	if (batten_fairing_result(job->fairing)->end == BATTEN_SEARCH_LIMIT)
 		fair_warn(job, "the search met its iteration limit and is not converged");
 	if (batten_fairing_run(job->fairing)->warning[0])
@@ -147,7 +169,8 @@ static batten_status tell(fair_job *job, const char *folder)
 	if (job->request->common.quiet)
 		return BATTEN_OK;
 	fair_table_print(job, stdout);
-	(void)printf("\nwritten to %s: faired.csv, report.json, lines.svg%s\n", folder,
+	(void)printf("\nwritten to %s: faired.csv, report.json, lines.svg%s%s\n", folder,
+	             job->options.variables == BATTEN_VARIABLES_NET ? ", surface.json" : "",
 	             job->vulkan_driver[0] ? ", before.png, after.png" : "");
 	return BATTEN_OK;
 }
@@ -155,13 +178,12 @@ static batten_status tell(fair_job *job, const char *folder)
 static batten_status run(fair_job *job)
 {
 	char folder[PATH_MAX];
-	batten_lock locks[LOCK_LIMIT];
 	batten_fair_options *options = &job->options;
 	batten_status status = choose_folder(job->request, folder);
 	if (status == BATTEN_OK)
 		status = read_hulls(job);
 	if (status == BATTEN_OK)
-		status = fair_options_read(job->request, job->hull, options, locks, LOCK_LIMIT);
+		status = fair_options_read(job->request, job->hull, options, &job->locks);
 	if (status != BATTEN_OK)
 		return status;
 	options->lower = job->lower;
@@ -200,14 +222,25 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "out", CLI_TEXT, &request->out, "DIR", "folder for the results (NAME-faired)" },
 		{ "method", CLI_TEXT, &request->method, "NAME", "search (default)" },
 		{ "search", CLI_TEXT, &request->search, "NAME", "auto (default), multilevel" },
-		{ "variables", CLI_TEXT, &request->variables, "NAME", "offsets (default)" },
-		{ "fairness", CLI_TEXT, &request->fairness, "NAME", "bending (default)" },
+		{ "variables", CLI_TEXT, &request->variables, "NAME",
+		  "offsets (default) of the table, or net: poles of a surface" },
+		{ "fairness", CLI_TEXT, &request->fairness, "NAME",
+		  "bending (default); with --variables net also mean, gauss, mvc" },
+		{ "net", CLI_TEXT, &request->net, "MxN",
+		  "poles along the hull and from keel to deck (chosen from the table and its noise)" },
+		{ "order", CLI_TEXT, &request->order, "KxL",
+		  "orders of the net, degree + 1, 2 to 8 (4x4)" },
+		{ "fix-tangent", CLI_TEXT, &request->tangents, "EDGES",
+		  "keel,stern,stem,deck: their poles move with those beside them, so tangents stay" },
+		{ "round", CLI_TEXT, &request->rounded, "EDGES",
+		  "keel,stern,stem: the surface leaves the centreplane square to it there" },
 		{ "w1", CLI_NUMBER, &request->w1, "X", "weight of fairness, dimensionless" },
 		{ "w2", CLI_NUMBER, &request->w2, "Y", "weight of closeness, dimensionless" },
 		{ "max-distance", CLI_TEXT, &request->max_distance, "D",
 		  "keep every offset this close to the smoothed hull (1% of the half-beam; or 0.5mm)" },
 		{ "lock", CLI_TEXT, &request->lock, "LIST",
-		  "station:X,waterline:Z,point:X@Z: do not move these (unit and frame of the file)" },
+		  "station:X,waterline:Z,point:X@Z: do not move these (unit and frame of the file); "
+		  "of a net also row:K,column:K,pole:COLUMN@ROW,edge:NAME" },
 		{ "lower", CLI_TEXT, &request->lower_path, "FILE", "lower offsets on the same table" },
 		{ "upper", CLI_TEXT, &request->upper_path, "FILE", "upper offsets on the same table" },
 		{ "no-smooth", CLI_FLAG, &request->no_smooth, NULL, "leave gross errors as they are" },

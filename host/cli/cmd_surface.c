@@ -94,51 +94,14 @@ static batten_status make_surface(const struct request *request, batten_context 
 	return status;
 }
 
-/* "MxN", both whole numbers below 10000. */
-static bool read_pair(const char *text, size_t *first, size_t *second)
-{
-	size_t values[2] = { 0, 0 };
-	for (size_t i = 0; i < 2; i++) {
-		size_t digits = 0;
-		for (; *text >= '0' && *text <= '9' && digits < 4; text++, digits++)
-			values[i] = 10 * values[i] + (size_t)(*text - '0');
-		if (digits == 0 || (i == 0 && *text++ != 'x'))
-			return false;
-	}
-	if (*text != '\0')
-		return false;
-	*first = values[0];
-	*second = values[1];
-	return true;
-}
-
-static batten_status read_rounded(const char *text, unsigned *out)
-{
-	static const char *const names[] = { "keel", "stern", "stem" };
-	static const unsigned bits[] = { BATTEN_ROUNDED_KEEL, BATTEN_ROUNDED_STERN,
-		                             BATTEN_ROUNDED_STEM };
-	for (const char *word = text;;) {
-		const size_t length = strcspn(word, ",");
-		size_t i = 0;
-		while (i < 3 && (strlen(names[i]) != length || strncmp(names[i], word, length) != 0))
-			i++;
-		if (i == 3)
-			return cli_usage("surface", "--rounded: found '%s', expected keel, stern, stem", text);
-		*out |= bits[i];
-		if (word[length] == '\0')
-			return BATTEN_OK;
-		word += length + 1;
-	}
-}
-
 static batten_status read_request(struct request *request)
 {
 	batten_fit_options *fit = &request->fit;
 	if (!request->net)
 		return cli_usage("surface", "--net MxN was expected: poles along the hull, keel to deck");
-	if (!read_pair(request->net, &fit->count_u, &fit->count_v))
+	if (!cli_read_pair(request->net, &fit->count_u, &fit->count_v))
 		return cli_usage("surface", "--net: found '%s', expected MxN, as 13x13", request->net);
-	if (request->order && !read_pair(request->order, &fit->order_u, &fit->order_v))
+	if (request->order && !cli_read_pair(request->order, &fit->order_u, &fit->order_v))
 		return cli_usage("surface", "--order: found '%s', expected KxL, as 4x4", request->order);
 	if (request->out && !cli_is_surface_file(request->out))
 		return cli_usage("surface",
@@ -146,7 +109,9 @@ static batten_status read_request(struct request *request)
 		                 "or .step",
 		                 request->out);
 	fit->hold_centreplane = !request->free_edges;
-	return request->rounded ? read_rounded(request->rounded, &fit->rounded) : BATTEN_OK;
+	return request->rounded
+	           ? cli_read_edges("surface", "rounded", request->rounded, false, &fit->rounded)
+	           : BATTEN_OK;
 }
 
 batten_status cli_surface(int argc, char **argv)

@@ -10,9 +10,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { FAIRED, LINES, BEFORE, AFTER, REPORT, FILE_COUNT };
-static const char *const file_names[FILE_COUNT] = { "faired.csv", "lines.svg", "before.png",
-	                                                "after.png", "report.json" };
+enum { FAIRED, SURFACE, LINES, BEFORE, AFTER, REPORT, FILE_COUNT };
+static const char *const file_names[FILE_COUNT] = { "faired.csv", "surface.json", "lines.svg",
+	                                                "before.png", "after.png",    "report.json" };
 
 static batten_status complain(const char *path, const char *what)
 {
@@ -111,6 +111,9 @@ static batten_status write_report(const fair_job *job, const char *path)
 static batten_status write_all(fair_job *job, char paths[FILE_COUNT][PATH_MAX])
 {
 	batten_status status = batten_hull_write(job->context, job->after.hull, paths[FAIRED]);
+	const batten_surface *surface = batten_fairing_faired_surface(job->fairing);
+	if (status == BATTEN_OK && surface)
+		status = batten_surface_write(job->context, surface, paths[SURFACE]);
 	if (status == BATTEN_OK)
 		status = batten_picture_lines(job->context, job->before.hull, job->after.hull,
 		                              paths[LINES]);
@@ -138,7 +141,8 @@ static batten_status check_targets(const char *folder)
 	return BATTEN_OK;
 }
 
-/* Pictures that were not drawn leave no older ones behind, which would show another hull. */
+/* Pictures that were not drawn, and a surface that is not searched, leave no older ones behind, which
+ * would show another hull. */
 static batten_status move_all(const char *folder, char paths[FILE_COUNT][PATH_MAX])
 {
 	for (size_t f = 0; f < FILE_COUNT; f++) {

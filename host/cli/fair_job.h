@@ -5,14 +5,15 @@
 
 #include "cli.h"
 
-enum { FAIR_WARNING_LIMIT = 16, FAIR_WARNING_SIZE = 400 };
+enum { FAIR_WARNING_LIMIT = 16, FAIR_WARNING_SIZE = 400, FAIR_LOCK_LIMIT = 256 };
 
 /* Options as text, still to be understood. */
 typedef struct fair_request {
 	cli_common common;
 	const char *hull_path, *out, *method, *search, *variables, *fairness;
 	const char *max_distance, *lock, *lower_path, *upper_path;
-	double w1, w2; /* NaN: not given */
+	const char *net, *order, *tangents, *rounded; /* NULL: not given */
+	double w1, w2;                                /* NaN: not given */
 	bool no_smooth;
 	unsigned iterations, seed; /* iterations UINT_MAX: not given */
 	int device;
@@ -28,12 +29,19 @@ typedef struct fair_state {
 	batten_closeness to_input, to_smoothed;
 } fair_state;
 
+/* What the options borrow. */
+typedef struct fair_locks {
+	batten_lock places[FAIR_LOCK_LIMIT];
+	batten_net_lock poles[FAIR_LOCK_LIMIT];
+} fair_locks;
+
 /* One fairing with everything the report says. */
 typedef struct fair_job {
 	batten_context *context;
 	const fair_request *request;
 	batten_hull *hull, *lower, *upper;
 	batten_fair_options options; /* as understood */
+	fair_locks locks;
 	batten_fairing *fairing;
 	fair_state before, smoothed, after;
 	batten_line *lines_before, *lines_after;
@@ -43,9 +51,20 @@ typedef struct fair_job {
 	char warnings[FAIR_WARNING_LIMIT][FAIR_WARNING_SIZE];
 } fair_job;
 
-/* Understands the request for a hull that has been read; locks has room for capacity entries. */
+/* Understands the request for a hull that has been read. */
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,
-                                batten_fair_options *options, batten_lock *locks, size_t capacity);
+                                batten_fair_options *options, fair_locks *locks);
+
+/* The part of it that is about the net: variables, fairness, size, orders, edges. */
+batten_status fair_net_options_read(const fair_request *request, batten_fair_options *options);
+
+/* A lock of poles, text[0..length): row:K, column:K, pole:I@J or edge:NAME. *found false where it
+ * is none of these, and then nothing is printed. */
+batten_status fair_net_lock_read(const char *text, size_t length, batten_fair_options *options,
+                                 fair_locks *locks, bool *found);
+
+/* "bending" ... as --fairness has them. */
+const char *fair_fairness_text(batten_fairness fairness);
 
 void fair_warn(fair_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -23,15 +23,12 @@ static batten_status check_words(const fair_request *request)
 {
 	static const char *const methods[] = { "search", NULL };
 	static const char *const searches[] = { "auto", "multilevel", NULL };
-	static const char *const variables[] = { "offsets", NULL };
-	static const char *const fairness[] = { "bending", NULL };
+	static const char *const variables[] = { "offsets", "net", NULL };
 	batten_status status = check_word("method", request->method, methods);
 	if (status == BATTEN_OK)
 		status = check_word("search", request->search, searches);
 	if (status == BATTEN_OK)
 		status = check_word("variables", request->variables, variables);
-	if (status == BATTEN_OK)
-		status = check_word("fairness", request->fairness, fairness);
 	return status;
 }
 
@@ -64,7 +61,7 @@ static batten_status bad_lock(const char *text, size_t length)
 	return cli_usage(
 		"fair",
 		"--lock: found '%.*s', expected station:X, waterline:Z or point:X@Z in the unit "
-		"and frame of the file",
+		"and frame of the file, or, of a net, row:K, column:K, pole:I@J or edge:NAME",
 		(int)length, text);
 }
 
@@ -104,17 +101,20 @@ static batten_status read_lock(const char *text, size_t length, const batten_hul
 	return bad_lock(text, length);
 }
 
-static batten_status read_locks(const char *text, const batten_hull *hull, batten_lock *locks,
-                                size_t capacity, size_t *count)
+static batten_status read_locks(const char *text, const batten_hull *hull,
+                                batten_fair_options *options, fair_locks *locks)
 {
 	while (*text) {
 		const size_t length = strcspn(text, ",");
-		if (*count == capacity)
-			return cli_usage("fair", "--lock: at most %zu locks are expected", capacity);
-		const batten_status status = read_lock(text, length, hull, &locks[*count]);
+		bool of_net = false;
+		batten_status status = fair_net_lock_read(text, length, options, locks, &of_net);
+		if (status == BATTEN_OK && !of_net) {
+			if (options->lock_count == FAIR_LOCK_LIMIT)
+				return cli_usage("fair", "--lock: at most %d locks are expected", FAIR_LOCK_LIMIT);
+			status = read_lock(text, length, hull, &locks->places[options->lock_count++]);
+		}
 		if (status != BATTEN_OK)
 			return status;
-		++*count;
 		text += length;
 		text += *text == ',';
 	}
@@ -122,10 +122,12 @@ static batten_status read_locks(const char *text, const batten_hull *hull, batte
 }
 
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,
-                                batten_fair_options *options, batten_lock *locks, size_t capacity)
+                                batten_fair_options *options, fair_locks *locks)
 {
 	batten_fair_options_default(options);
 	batten_status status = check_words(request);
+	if (status == BATTEN_OK)
+		status = fair_net_options_read(request, options);
 	if (status != BATTEN_OK)
 		return status;
 	options->weights_given = !isnan(request->w1);
@@ -146,7 +148,8 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 	if (request->max_distance)
 		status = read_distance(request->max_distance, options);
 	if (status == BATTEN_OK && request->lock)
-		status = read_locks(request->lock, hull, locks, capacity, &options->lock_count);
-	options->locks = locks;
+		status = read_locks(request->lock, hull, options, locks);
+	options->locks = locks->places;
+	options->net_locks = locks->poles;
 	return status;
 }

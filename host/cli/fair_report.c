@@ -123,11 +123,12 @@ static json_t *method_json(const fair_job *job)
 {
 	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
 	const fair_request *request = job->request;
+	const bool net = job->options.variables == BATTEN_VARIABLES_NET;
 	json_t *object = json_object();
 	set(object, "method", json_string("search"));
 	set(object, "search", json_string("multilevel"));
-	set(object, "variables", json_string("offsets"));
-	set(object, "fairness", json_string("bending"));
+	set(object, "variables", json_string(net ? "net" : "offsets"));
+	set(object, "fairness", json_string(fair_fairness_text(job->options.fairness)));
 	set(object, "smooth", json_boolean(!request->no_smooth));
 	set(object, "w1", number(facts.w1));
 	set(object, "w2", number(facts.w2));
@@ -138,6 +139,8 @@ static json_t *method_json(const fair_job *job)
 	set(object, "lock", path_json(request->lock));
 	set(object, "lower", path_json(request->lower_path));
 	set(object, "upper", path_json(request->upper_path));
+	set(object, "fix_tangent", path_json(request->tangents));
+	set(object, "round", path_json(request->rounded));
 	set(object, "seed", count(request->seed));
 	set(object, "device_asked_for", device_json(request->device));
 	set(object, "iteration_limit", count(job->options.search.iteration_limit));
@@ -145,6 +148,50 @@ static json_t *method_json(const fair_job *job)
 	set(object, "at_limit_count", count(facts.at_limit_count));
 	set(object, "filled_count", count(facts.filled_count));
 	set(object, "rms_change_m", number(facts.rms_change_m));
+	return object;
+}
+
+static json_t *energies_json(const batten_surface_energies *energies)
+{
+	json_t *object = json_object();
+	set(object, "energy_bending", number(energies->bending));
+	set(object, "energy_mean", number(energies->mean));
+	set(object, "energy_gauss", number(energies->gauss));
+	set(object, "area_m2", number(energies->area_m2));
+	set(object, "singular_points", count(energies->singular));
+	return object;
+}
+
+/* Null where the offsets were the variables. */
+static json_t *surface_json(const fair_job *job)
+{
+	const batten_surface *surface = batten_fairing_faired_surface(job->fairing);
+	if (!surface)
+		return json_null();
+	const batten_surface_net shape = batten_surface_describe(surface);
+	const batten_fairing_net net = batten_fairing_describe_net(job->fairing);
+	json_t *object = json_object();
+	set(object, "frame", json_string("ap-fwd"));
+	set(object, "unit", json_string("m"));
+	set(object, "rule", json_string("energies: Gauss quadrature over every knot span"));
+	set(object, "order_u", count(shape.order_u));
+	set(object, "order_v", count(shape.order_v));
+	set(object, "count_u", count(shape.count_u));
+	set(object, "count_v", count(shape.count_v));
+	set(object, "locked_poles", count(net.locked_count));
+	set(object, "fit_points", count(net.deviation.point_count));
+	set(object, "fit_deviation_rms_m", number(net.deviation.rms_m));
+	set(object, "fit_deviation_max_m", number(net.deviation.max_m));
+	set(object, "fit_deviation_rms_pct", number(net.deviation.rms_pct));
+	set(object, "fit_deviation_max_pct", number(net.deviation.max_pct));
+	set(object, "fit_deviation_max_x_m", number(net.deviation.x_m));
+	set(object, "fit_deviation_max_y_m", number(net.deviation.y_m));
+	set(object, "fit_deviation_max_z_m", number(net.deviation.z_m));
+	set(object, "offsets_on_surface", count(net.on_count));
+	set(object, "offsets_beyond_edge", count(net.beyond_count));
+	set(object, "offsets_kept", count(net.kept_count));
+	set(object, "before", energies_json(&net.before));
+	set(object, "after", energies_json(&net.after));
 	return object;
 }
 
@@ -180,6 +227,7 @@ batten_status fair_report_write(const fair_job *job, FILE *stream)
 	set(report, "replaced", replaced_json(job->fairing));
 	set(report, "lines", lines_json(job));
 	set(report, "method", method_json(job));
+	set(report, "surface", surface_json(job));
 	set(report, "search", search_json(job));
 	set(report, "pictures", job->vulkan_driver[0] ? json_string(job->vulkan_driver) : json_null());
 	json_t *warnings = json_array();

@@ -78,6 +78,31 @@ static void print_replacements(const fair_job *job, FILE *stream)
 		(void)fprintf(stream, "replaced: %zu more, listed in report.json\n", count - shown);
 }
 
+/* The surface: how far off the offsets, how fair. Nothing is smoothed in it. */
+static void print_net(const fair_job *job, FILE *stream)
+{
+	const batten_surface_net shape = batten_surface_describe(
+		batten_fairing_faired_surface(job->fairing));
+	const batten_fairing_net net = batten_fairing_describe_net(job->fairing);
+	(void)fprintf(
+		stream,
+		"\nsurface: %zu x %zu poles of order %zu x %zu, %zu of them held; off the smoothed "
+		"offsets\nby %.4g m rms (%.3g %% of the half-beam), %.4g m at most (%.3g %%), as "
+		"fitted\n\n",
+		shape.count_u, shape.count_v, shape.order_u, shape.order_v, net.locked_count,
+		net.deviation.rms_m, net.deviation.rms_pct, net.deviation.max_m, net.deviation.max_pct);
+	(void)fprintf(stream, "%-22s %12s %12s %12s %11s\n", "of the surface", "", "fitted", "after",
+	              "by fairing");
+	const struct {
+		const char *name;
+		double before, after;
+	} rows[] = { { "energy_bending", net.before.bending, net.after.bending },
+		         { "energy_mean", net.before.mean, net.after.mean },
+		         { "energy_gauss", net.before.gauss, net.after.gauss } };
+	for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+		print_row(stream, rows[i].name, NAN, rows[i].before, rows[i].after);
+}
+
 void fair_table_print(const fair_job *job, FILE *stream)
 {
 	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
@@ -98,13 +123,16 @@ void fair_table_print(const fair_job *job, FILE *stream)
 	              job->smoothed.to_input.cn_pct, job->after.to_input.cn_pct);
 	(void)fprintf(stream, "%-22s %12s %12s %12.6g\n", "cn_search_pct", "", "",
 	              job->after.to_smoothed.cn_pct);
+	const bool net = job->options.variables == BATTEN_VARIABLES_NET;
+	if (net)
+		print_net(job, stream);
 	(void)fprintf(
 		stream,
 		"\nsearch: %s after %u iterations, %llu probes; objective %.6g to %.6g; w2/w1 = %.4g%s;\n"
-		"%zu of %zu offsets at a bound (distance limit %.4g m); %.3f s on %s\n",
+		"%zu of %zu %s at a bound (distance limit %.4g m); %.3f s on %s\n",
 		batten_search_end_text(result->end), result->iterations, (unsigned long long)result->probes,
 		result->objective_start, result->objective_end, facts.w2 / facts.w1,
 		facts.weights_by_noise ? " (by the noise of the offsets)" : "", facts.at_limit_count,
-		facts.variable_count, facts.max_distance_m, batten_fairing_run(job->fairing)->seconds,
-		batten_fairing_run(job->fairing)->device);
+		facts.variable_count, net ? "poles" : "offsets", facts.max_distance_m,
+		batten_fairing_run(job->fairing)->seconds, batten_fairing_run(job->fairing)->device);
 }

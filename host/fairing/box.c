@@ -2,11 +2,6 @@
 
 #include <math.h>
 
-#define HALF_BEAM_LIMIT 1.2
-
-/* The limit is kept a hair inside, so that rounding never reports a change beyond it. */
-#define LIMIT_MARGIN (1.0 - 1e-12)
-
 /* A bound and what set it, for the message when two exclude each other. */
 typedef struct bound {
 	double value;
@@ -31,9 +26,9 @@ static batten_status bound_node(batten_context *context, const batten_hull *hull
 {
 	const double y = hull->y_m[node];
 	bound lower = { 0.0, "0" };
-	bound upper = { HALF_BEAM_LIMIT * batten_hull_half_beam_m(hull), "1.2 half-beams" };
-	raise(&lower, y - LIMIT_MARGIN * distance, "the distance limit");
-	reduce(&upper, y + LIMIT_MARGIN * distance, "the distance limit");
+	bound upper = { FAIRING_HALF_BEAM_LIMIT * batten_hull_half_beam_m(hull), "1.2 half-beams" };
+	raise(&lower, y - FAIRING_LIMIT_MARGIN * distance, "the distance limit");
+	reduce(&upper, y + FAIRING_LIMIT_MARGIN * distance, "the distance limit");
 	if (options->lower && options->lower->nodes[node] == BATTEN_NODE_GIVEN)
 		raise(&lower, options->lower->y_m[node], "the lower offsets");
 	if (options->upper && options->upper->nodes[node] == BATTEN_NODE_GIVEN)

@@ -4,6 +4,12 @@
 
 #include "hull/hull.h"
 
+/* No half-breadth goes beyond this part of the half-beam. */
+#define FAIRING_HALF_BEAM_LIMIT 1.2
+
+/* The distance limit is kept a hair inside, so that rounding never reports a change beyond it. */
+#define FAIRING_LIMIT_MARGIN (1.0 - 1e-12)
+
 typedef struct fairing_box {
 	double *lower_m, *upper_m; /* [waterlines][stations]; equal where nothing moves */
 	double *closeness_weight;  /* 0 at '?' cells: there is no half-breadth to stay close to */

@@ -18,6 +18,7 @@ void batten_fit_options_default(batten_fit_options *options)
 		.order_v = 4,
 		.hold_centreplane = true,
 		.correction_limit = 20,
+		.stiffness = 1e-6,
 	};
 }
 
@@ -35,6 +36,9 @@ static batten_status check_options(batten_context *context, const batten_fit_opt
 			                   "found %zu poles %s, expected the order %zu to %d", counts[d],
 			                   direction, orders[d], BSPLINE_POLES_MOST);
 	}
+	if (!(options->stiffness >= 1e-12 && options->stiffness <= 1.0))
+		return batten_fail(context, BATTEN_USAGE, "found stiffness %g, expected 1e-12 to 1",
+		                   options->stiffness);
 	const unsigned known = BATTEN_ROUNDED_KEEL | BATTEN_ROUNDED_STERN | BATTEN_ROUNDED_STEM;
 	if (options->rounded & ~known)
 		return batten_fail(context, BATTEN_USAGE, "found edge %u to be rounded, which is none",
@@ -129,7 +133,7 @@ static batten_status improve(const batten_hull *hull, const batten_fit_options *
                              struct batten_surface **best, batten_fit_deviation *deviation)
 {
 	struct batten_surface *next = NULL;
-	batten_status status = fit_net_solve(points, edges, *best);
+	batten_status status = fit_net_solve(points, edges, options->stiffness, *best);
 	if (status == BATTEN_OK) {
 		measure(hull, points, *best, deviation);
 		status = batten_surface_clone(hull->context, *best, &next);
@@ -141,7 +145,7 @@ static batten_status improve(const batten_hull *hull, const batten_fit_options *
 			break;
 		batten_fit_deviation found;
 		correct(points, idle ? next : *best);
-		status = fit_net_solve(points, edges, next);
+		status = fit_net_solve(points, edges, options->stiffness, next);
 		if (status != BATTEN_OK)
 			break;
 		measure(hull, points, next, &found);

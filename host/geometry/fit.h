@@ -89,9 +89,10 @@ struct fit_edges {
 };
 
 /* Poles of surface by least squares over the points at their parameters. Where the points leave a
- * pole free, the net goes on straight. Errors: MEMORY, INPUT (not to be solved). */
+ * pole free, the net goes on straight; stiffness, as in batten_fit_options, is what that weighs.
+ * Errors: MEMORY, INPUT (not to be solved). */
 batten_status fit_net_solve(const struct fit_points *points, const struct fit_edges *edges,
-                            struct batten_surface *surface);
+                            double stiffness, struct batten_surface *surface);
 
 /* Symmetric positive definite system with the lower band in rows: a[row * (width + 1) + width] is
  * the diagonal, width places before it the others. False when a pivot is not positive. */

@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double stiffness = 1e-6; /* against the mean of the diagonal */
-static const double settled = 1e-15;  /* a step against the largest coordinate: the last one */
+static const double settled = 1e-15; /* a step against the largest coordinate: the last one */
 enum { REFINEMENTS = 8, FIXED = -1 };
 
 /* Unknown number of every pole for the coordinates x and z (linked where rounded) or y. */
@@ -16,6 +15,7 @@ struct system {
 	batten_context *context;
 	const struct fit_points *points;
 	struct batten_surface *surface;
+	double stiffness; /* against the mean of the diagonal */
 	size_t unknowns, width;
 	long *unknown;  /* [count_u][count_v], or FIXED: at 0 */
 	double *matrix; /* band of the factor */
@@ -122,7 +122,7 @@ static batten_status assemble(struct system *system)
 	double trace = 0.0;
 	for (size_t i = 0; i < system->unknowns; i++)
 		trace += system->matrix[i * (system->width + 1) + system->width];
-	const double weight = stiffness * trace / (double)system->unknowns;
+	const double weight = system->stiffness * trace / (double)system->unknowns;
 	const size_t longest = s->count_u > s->count_v ? s->count_u : s->count_v;
 	double *places = batten_allocate(system->context, longest, sizeof *places);
 	if (!places)
@@ -201,7 +201,7 @@ static batten_status solve(struct system *system, const struct fit_edges *edges,
 }
 
 batten_status fit_net_solve(const struct fit_points *points, const struct fit_edges *edges,
-                            struct batten_surface *surface)
+                            double stiffness, struct batten_surface *surface)
 {
 	const size_t poles = surface->count_u * surface->count_v;
 	/* Poles of one point or of one second difference are at most this far apart. */
@@ -211,6 +211,7 @@ batten_status fit_net_solve(const struct fit_points *points, const struct fit_ed
 		.context = points->context,
 		.points = points,
 		.surface = surface,
+		.stiffness = stiffness,
 		.width = (reach_u - 1) * surface->count_v + reach_v - 1,
 	};
 	system.unknown = batten_allocate(points->context, poles, sizeof *system.unknown);

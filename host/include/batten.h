@@ -422,71 +422,6 @@ BATTEN_API batten_status batten_search_batch(batten_context *context, const batt
                                              batten_search_result *results, batten_run *run);
 
 /* ------------------------------------------------------------------------------------------------
- * Fairing a hull
- * --------------------------------------------------------------------------------------------- */
-
-/* One gross input error found and replaced (thesis 4.5). */
-typedef struct batten_replacement {
-	size_t station, waterline;
-	double x_m, z_m, old_m, new_m;
-} batten_replacement;
-
-/* A point or a line where fairing may not change any offset; a '?' cell has none. */
-typedef enum batten_lock_kind {
-	BATTEN_LOCK_STATION,   /* all of the station at x_m */
-	BATTEN_LOCK_WATERLINE, /* all of the waterline at z_m */
-	BATTEN_LOCK_POINT,     /* the offset at (x_m, z_m) */
-} batten_lock_kind;
-typedef struct batten_lock {
-	batten_lock_kind kind;
-	double x_m, z_m;
-} batten_lock;
-
-typedef struct batten_fair_options {
-	size_t struct_size;
-	batten_search_options search;
-	bool smooth;              /* replace gross errors first; true */
-	bool weights_given;       /* false: by the discrepancy principle */
-	double w1, w2;            /* used when given */
-	double max_distance_m;    /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
-	double max_distance_part; /* of h; 0.01 */
-	const batten_lock *locks; /* borrowed for the call */
-	size_t lock_count;
-	const batten_hull *lower, *upper; /* bounds on the same table, or NULL */
-} batten_fair_options;
-BATTEN_API void batten_fair_options_default(batten_fair_options *options);
-
-typedef struct batten_fairing batten_fairing;
-
-/* Fairs one hull: gross errors, noise, weight, search. The hull is not changed.
- * Returns INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or bound that is
- * not on the table), INPUT (nothing to fair), DEVICE, KERNEL, MEMORY. */
-BATTEN_API batten_status batten_hull_fair(batten_context *context, const batten_hull *hull,
-                                          const batten_fair_options *options, batten_fairing **out);
-BATTEN_API void batten_fairing_destroy(batten_fairing *fairing);
-
-/* The parts of a fairing; borrowed, valid while it lives. */
-BATTEN_API const batten_hull *batten_fairing_input(const batten_fairing *fairing);
-BATTEN_API const batten_hull *batten_fairing_smoothed(const batten_fairing *fairing);
-BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairing);
-BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
-BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
-BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
-BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
-
-typedef struct batten_fairing_facts {
-	double noise_m;        /* of the smoothed hull */
-	double w1, w2;         /* as used */
-	bool weights_by_noise; /* chosen by the discrepancy principle */
-	double max_distance_m;
-	size_t variable_count; /* offsets the search may move */
-	size_t at_limit_count; /* of these, at a bound in the end */
-	double rms_change_m;   /* over the variables, against the smoothed hull */
-	size_t filled_count;   /* '?' cells */
-} batten_fairing_facts;
-BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
-
-/* ------------------------------------------------------------------------------------------------
  * Varying a parent hull
  * --------------------------------------------------------------------------------------------- */
 
@@ -683,6 +618,8 @@ typedef struct batten_fit_options {
 	bool hold_centreplane;     /* edges whose points all have y = 0 keep y = 0 throughout; true */
 	unsigned rounded;          /* BATTEN_ROUNDED_...; such an edge must lie in the centreplane; 0 */
 	unsigned correction_limit; /* rounds of better parameters for the points; 20 */
+	double stiffness; /* how much straightness of the net counts against the points: 1e-12..1; 1e-6.
+	                     More keeps poles that few points determine from running away */
 } batten_fit_options;
 BATTEN_API void batten_fit_options_default(batten_fit_options *options);
 
@@ -1198,6 +1135,189 @@ typedef struct batten_table {
  * at all. Errors: USAGE (another ending), IO, MEMORY. */
 BATTEN_API batten_status batten_table_write(batten_context *context, const batten_table *table,
                                             const char *path);
+
+/* ------------------------------------------------------------------------------------------------
+ * The pattern search over the control net of a surface, many at a time
+ * --------------------------------------------------------------------------------------------- */
+
+/* What a surface is to be low in (thesis 7.1; Letcher 4.5), integrated over its area. With h the
+ * half-beam all are made free of dimension: a ratio w2/w1 means the same on every hull. */
+typedef enum batten_fairness {
+	BATTEN_FAIRNESS_BENDING,   /* k1^2 + k2^2 */
+	BATTEN_FAIRNESS_MEAN,      /* ((k1 + k2) / 2)^2 */
+	BATTEN_FAIRNESS_GAUSS,     /* |k1 k2|, as sqrt(K^2 + e^2) with e = 0.001 / h^2 */
+	BATTEN_FAIRNESS_VARIATION, /* h^2 times (dk1/ds1)^2 + (dk2/ds2)^2 along their own lines */
+} batten_fairness;
+
+/* One search: the y of the poles of a surface. Minimises
+ *     F = w1 * integral of fairness dA + w2 * integral of (y - target)^2 |x_u z_v - x_v z_u| du dv / h^4
+ * by Gauss quadrature over every knot span, lower <= y <= upper; a pole with lower == upper is
+ * fixed. x, z and the knots stay. Points where the start has no normal count nothing in the first
+ * integral, whatever the search does. Arrays are [count_v][count_u], as in batten_surface_net. */
+typedef struct batten_net_problem {
+	const batten_surface *start; /* without weights; y is clamped into the box */
+	const double *target_y_m;    /* poles of the surface to stay close to; NULL: those of start */
+	const double *lower_y_m, *upper_y_m; /* lower <= upper, finite, within 1e9 m */
+	double w1, w2;                       /* dimensionless, as in batten_search_problem */
+	double half_beam_m;                  /* h, > 0 */
+} batten_net_problem;
+
+typedef struct batten_net_options {
+	size_t struct_size;
+	batten_search_options search; /* first_step 0.01, else as its own default */
+	batten_fairness fairness;     /* BATTEN_FAIRNESS_BENDING */
+	unsigned gauss_points;        /* a knot span and direction, 1..16; 0 takes the order */
+	/* [count_v][count_u], the same for the whole batch: index (row * count_u + column) of the pole
+	 * that a pole moves with, both by the same distance, which stays in the boxes of both; its own
+	 * index: the pole is free or leads. NULL: all are free. An edge keeps its tangents when the row
+	 * beside it moves with it. */
+	const size_t *leader;
+} batten_net_options;
+BATTEN_API void batten_net_options_default(batten_net_options *options);
+
+/* Runs count searches over surfaces of one topology (orders, counts and knots; without weights; at
+ * most 65536 poles) by the multilevel Hooke-Jeeves method (kernels/README.md). y_m is the caller's,
+ * [count][count_v][count_u]; results [count]; options and run may be NULL. The result of a search
+ * does not depend on the others, on their order or number, nor (when strict) on what ran it.
+ * Returns INCOMPLETE when a search was refused (then its y_m is not written) or met its limit.
+ * Errors: USAGE (options, a leader that is out of range or follows another, surfaces of different
+ * topology or with weights), DEVICE, KERNEL, MEMORY. */
+BATTEN_API batten_status batten_net_search_batch(batten_context *context, size_t count,
+                                                 const batten_net_problem *problems,
+                                                 const batten_net_options *options, double *y_m,
+                                                 batten_search_result *results, batten_run *run);
+
+/* ------------------------------------------------------------------------------------------------
+ * Fairing a hull
+ * --------------------------------------------------------------------------------------------- */
+
+/* One gross input error found and replaced (thesis 4.5). */
+typedef struct batten_replacement {
+	size_t station, waterline;
+	double x_m, z_m, old_m, new_m;
+} batten_replacement;
+
+/* A point or a line where fairing may not change any offset; a '?' cell has none. */
+typedef enum batten_lock_kind {
+	BATTEN_LOCK_STATION,   /* all of the station at x_m */
+	BATTEN_LOCK_WATERLINE, /* all of the waterline at z_m */
+	BATTEN_LOCK_POINT,     /* the offset at (x_m, z_m) */
+} batten_lock_kind;
+typedef struct batten_lock {
+	batten_lock_kind kind;
+	double x_m, z_m;
+} batten_lock;
+
+/* What the search moves.
+ *
+ * NET: a surface is fitted to the smoothed hull and y of its poles is searched; x, z and the knots
+ * stay, so every place keeps its u and v. Poles stay within the distance limit of where the fit put
+ * them, and so, by the convex hull of the net, does the whole surface: the limit is against the
+ * fitted surface, which itself lies off the offsets by the deviation of the fit. y of a pole stays
+ * between 0 and 1.2 h; one that the fit put beyond goes no further. Edges in the centreplane stay
+ * there: poles of keel, stern and stem that the fit put within 0.01 h of it are not moved. The
+ * discrepancy principle compares the faired surface with the fitted one, at the offsets, and allows
+ * 0.75 of the noise that is left after least squares: that of the offsets times sqrt(poles /
+ * points).
+ *
+ * The faired hull has the half-breadths of the faired surface at the stations and waterlines of the
+ * table and at line ends off it. Kept as they are: profile zeros, '?' cells (filled anew), locked
+ * offsets (below), and offsets that lie off the surface, seen along y, by more than the largest
+ * deviation of the fit. One beyond an edge, but no further than that, takes the surface as it goes
+ * on there and the movement of the edge. */
+typedef enum batten_variables {
+	BATTEN_VARIABLES_OFFSETS, /* the half-breadths of the table */
+	BATTEN_VARIABLES_NET,     /* y of the poles of a surface */
+} batten_variables;
+
+/* Poles that fairing may not move, counted from 0. With NET a batten_lock holds all poles that have a
+ * part in the surface there; the surface stays where the fit put it, and the offset of the table
+ * keeps its number. */
+typedef enum batten_net_lock_kind {
+	BATTEN_NET_LOCK_ROW,    /* along the hull: row 0 is the keel */
+	BATTEN_NET_LOCK_COLUMN, /* along the girth: column 0 is the stern */
+	BATTEN_NET_LOCK_POLE,
+} batten_net_lock_kind;
+typedef struct batten_net_lock {
+	batten_net_lock_kind kind;
+	size_t column, row; /* the one that the kind does not name is not looked at */
+} batten_net_lock;
+
+/* Edges of a surface. An edge whose poles move with those beside them, by the same distance, keeps
+ * its tangents; where it is held, locked or in the centreplane, those beside it are held too. */
+#define BATTEN_EDGE_KEEL 1u  /* row 0 */
+#define BATTEN_EDGE_STERN 2u /* column 0 */
+#define BATTEN_EDGE_STEM 4u  /* the last column */
+#define BATTEN_EDGE_DECK 8u  /* the last row */
+
+typedef struct batten_fair_options {
+	size_t struct_size;
+	batten_search_options search;
+	bool smooth;              /* replace gross errors first; true */
+	bool weights_given;       /* false: by the discrepancy principle */
+	double w1, w2;            /* used when given */
+	double max_distance_m;    /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
+	double max_distance_part; /* of h; 0.01 */
+	const batten_lock *locks; /* borrowed for the call */
+	size_t lock_count;
+	const batten_hull *lower, *upper; /* bounds on the same table, or NULL; of OFFSETS only */
+	batten_variables variables;       /* BATTEN_VARIABLES_OFFSETS */
+	batten_fairness fairness;         /* of NET; OFFSETS knows bending only */
+	/* The rest is of NET only. */
+	batten_fit_options fit;           /* counts 0: chosen from the table; stiffness 1e-3 */
+	const batten_net_lock *net_locks; /* borrowed for the call */
+	size_t net_lock_count;
+	unsigned locked_edges;   /* BATTEN_EDGE_...: their poles stay */
+	unsigned fixed_tangents; /* BATTEN_EDGE_...: their poles move with those beside them */
+} batten_fair_options;
+BATTEN_API void batten_fair_options_default(batten_fair_options *options);
+
+typedef struct batten_fairing batten_fairing;
+
+/* Fairs one hull: gross errors, noise, weight, search; with NET the fit before the search. The hull is
+ * not changed. Returns INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or
+ * bound that is not on the table or the net, options of the other variables), INPUT (nothing to
+ * fair, no surface to fit), DEVICE, KERNEL, MEMORY. */
+BATTEN_API batten_status batten_hull_fair(batten_context *context, const batten_hull *hull,
+                                          const batten_fair_options *options, batten_fairing **out);
+BATTEN_API void batten_fairing_destroy(batten_fairing *fairing);
+
+/* The parts of a fairing; borrowed, valid while it lives. */
+BATTEN_API const batten_hull *batten_fairing_input(const batten_fairing *fairing);
+BATTEN_API const batten_hull *batten_fairing_smoothed(const batten_fairing *fairing);
+BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairing);
+BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
+BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
+BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
+BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
+
+typedef struct batten_fairing_facts {
+	double noise_m;        /* of the smoothed hull */
+	double w1, w2;         /* as used */
+	bool weights_by_noise; /* chosen by the discrepancy principle */
+	double max_distance_m;
+	size_t variable_count; /* offsets, or poles, the search may move */
+	size_t at_limit_count; /* of these, at a bound in the end */
+	double rms_change_m;   /* OFFSETS: over the variables, against the smoothed hull; NET: over the
+	                          offsets on the surface, faired against fitted surface */
+	size_t filled_count;   /* '?' cells */
+} batten_fairing_facts;
+BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
+
+/* The surface before and after; NULL with OFFSETS. */
+BATTEN_API const batten_surface *batten_fairing_fitted_surface(const batten_fairing *fairing);
+BATTEN_API const batten_surface *batten_fairing_faired_surface(const batten_fairing *fairing);
+
+/* What NET did; all 0 with OFFSETS. */
+typedef struct batten_fairing_net {
+	batten_fit_deviation deviation; /* of the fitted surface from the smoothed hull */
+	batten_surface_energies before, after;
+	size_t pole_count, locked_count; /* of the poles, those that may not move */
+	size_t on_count;                 /* offsets that lie on the surface, seen along y */
+	size_t beyond_count;             /* of these, beyond its edge within the deviation of the fit */
+	size_t kept_count;               /* positive offsets that kept their number */
+} batten_fairing_net;
+BATTEN_API batten_fairing_net batten_fairing_describe_net(const batten_fairing *fairing);
 
 /* ------------------------------------------------------------------------------------------------
  * Pictures

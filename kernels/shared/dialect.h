@@ -6,6 +6,10 @@
  *   real     BATTEN_LANES scalars side by side, one search a lane (in C always one)
  *   mask     what comparing two reals gives; only CHOOSE, ANY and & look into it
  *
+ * What is worked by a group of work-items in OpenCL is worked by the only one in C: WORK_ITEM of
+ * WORK_ITEMS, which WAIT for each other. GLOBAL and LOCAL say where memory lies, STATE where the state
+ * of a search does (local, or global where it is too large; defined by the host).
+ *
  * Strict arithmetic: only + - * / sqrt and comparisons, no contraction, so that C and every device
  * agree bit for bit. */
 #ifndef BATTEN_SHARED_DIALECT_H
@@ -33,8 +37,16 @@ typedef float scalar;
 typedef scalar real;
 typedef int mask;
 #define CHOOSE(condition, when_true, when_false) ((condition) ? (when_true) : (when_false))
+#define ANY(condition) (condition)
 #define SPREAD(a) (a)
 #define SHARED_FUNCTION static inline
+#define GLOBAL
+#define LOCAL
+#define STATE
+#define WORK_ITEM 0
+#define WORK_ITEMS 1
+#define WAIT ((void)0)
+#define ROLLED
 
 #else
 
@@ -65,6 +77,14 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #endif
 #define SPREAD(a) ((real)(a))
 #define SHARED_FUNCTION static inline
+#define GLOBAL global
+#define LOCAL local
+#define WORK_ITEM ((int)get_local_id(0))
+#define WORK_ITEMS ((int)get_local_size(0))
+#define WAIT barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
+/* Unrolled loops cost PoCL half a minute of compiling and gain nothing: the lanes are unrolled
+ * already. */
+#define ROLLED _Pragma("unroll 1")
 
 #endif
 

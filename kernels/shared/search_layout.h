@@ -14,6 +14,9 @@ enum {
 	SEARCH_ARRAY_COUNT
 };
 
+/* Ways a pattern move goes: the iteration's own and those of iterations before. */
+#define SEARCH_WAYS 4
+
 /* One value a search each. */
 enum { SEARCH_SETTING_FIRST_STEP, SEARCH_SETTING_LAST_STEP, SEARCH_SETTING_COUNT };
 enum {

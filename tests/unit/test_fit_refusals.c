@@ -48,6 +48,11 @@ static void test_refusals(void **state)
 	refuse(*state, hull, &options, BATTEN_USAGE, "the stem cannot be rounded");
 	options.rounded = 8;
 	refuse(*state, hull, &options, BATTEN_USAGE, "edge 8");
+	options = net(8, 8, 4);
+	options.stiffness = 0.0;
+	refuse(*state, hull, &options, BATTEN_USAGE, "stiffness 0");
+	options.stiffness = 1.5;
+	refuse(*state, hull, &options, BATTEN_USAGE, "stiffness 1.5");
 	options = net(3, 3, 3);
 	options.rounded = BATTEN_ROUNDED_STEM;
 	refuse(*state, wigley, &options, BATTEN_USAGE, "rounded edge needs");

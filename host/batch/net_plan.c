@@ -1,0 +1,33 @@
+#include "batch/net_plan.h"
+
+#include <math.h>
+
+size_t net_plan_poles(const net_plan *plan)
+{
+	return plan->u.poles * plan->v.poles;
+}
+
+size_t net_plan_sample_size(const net_plan *plan)
+{
+	return plan->fairness == NET_FAIRNESS_VARIATION ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE;
+}
+
+double net_start_of(const net_item *item, size_t pole)
+{
+	return fmin(fmax(item->poles_m[3 * pole + 1], item->lower_y_m[pole]), item->upper_y_m[pole]);
+}
+
+void net_rooms_of(const net_plan *plan, const net_item *item, net_room *rooms)
+{
+	const size_t poles = net_plan_poles(plan);
+	for (size_t n = 0; n < poles; n++)
+		rooms[n] = (net_room){ -INFINITY, INFINITY };
+	for (size_t n = 0; n < poles; n++) {
+		const double start = net_start_of(item, n);
+		net_room *room = &rooms[plan->leader[n]];
+		room->down = fmax(room->down, item->lower_y_m[n] - start);
+		room->up = fmin(room->up, item->upper_y_m[n] - start);
+	}
+	for (size_t n = 0; n < poles; n++)
+		rooms[n] = rooms[plan->leader[n]];
+}

@@ -1,0 +1,27 @@
+/* What searches over grids and over control nets have in common at their beginning and their end. */
+#ifndef BATTEN_BATCH_SEARCH_RESULT_H
+#define BATTEN_BATCH_SEARCH_RESULT_H
+
+#include "core/context.h"
+#include "shared/search_layout.h"
+
+/* The weights of search number `which`. */
+typedef struct search_weights {
+	double w1, w2;
+	size_t which;
+} search_weights;
+
+/* Numbers of searches, those of like stiffness side by side: they end after about as many iterations,
+ * so that few lanes run idle. Sorts weights. */
+void search_order(search_weights *weights, size_t count, size_t *order);
+
+/* What a search's outcome means. */
+batten_search_result search_result_of(const batten_search_options *options, double half_beam_m,
+                                      const double values[SEARCH_OUTCOME_COUNT]);
+batten_search_result search_result_refused(const char *fault);
+
+/* OK, or an error that names the first search refused or at its limit. Errors: INCOMPLETE. */
+batten_status search_results_judge(batten_context *context, size_t count,
+                                   const batten_search_result *results);
+
+#endif

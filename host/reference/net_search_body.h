@@ -1,0 +1,77 @@
+/* Body of host/reference/net_search_f64.c and _f32.c, compiled once per precision: the includer
+ * defines BATTEN_DOUBLE and NET_SEARCH_FUNCTION. No include guard, on purpose. */
+
+#define BATTEN_DIALECT_C
+#include "shared/dialect.h"
+
+/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
+ * times slower with the same result. All is inlined into one function for each, formulas too. */
+#define INLINED static inline __attribute__((always_inline))
+#undef SHARED_FUNCTION
+#define SHARED_FUNCTION INLINED
+#define NET_FAIRNESS (s->fairness)
+#define NET_ORDER_U (s->order_u)
+#define NET_ORDER_V (s->order_v)
+#include "shared/net_energy.h"
+/* The objective first: the driver calls it. */
+#include "shared/search_driver.h"
+
+INLINED void work_search(const reference_net_search *shared, const scalar *tables,
+                         const scalar *heights, const scalar *samples, scalar *arrays,
+                         const scalar *settings, scalar *outcome, scalar *scratch)
+{
+	const int32_t *shape = shared->shape;
+	const int nodes = shape[NET_SHAPE_COLUMNS] * shape[NET_SHAPE_ROWS];
+	const search_state s = {
+		.nodes = nodes,
+		.columns = shape[NET_SHAPE_COLUMNS],
+		.lines = shape[NET_SHAPE_LINES],
+		.length = shape[NET_SHAPE_LENGTH],
+		.colour_count = shape[NET_SHAPE_COLOURS],
+		.order_u = shared->order_u,
+		.order_v = shared->order_v,
+		.fairness = shared->fairness,
+		.y = scratch,
+		.base = scratch + nodes,
+		.trial = scratch + 2 * (size_t)nodes,
+		.lower = arrays + NET_ARRAY_LOWER * nodes,
+		.upper = arrays + NET_ARRAY_UPPER * nodes,
+		.first_u = shared->first_u,
+		.first_v = shared->first_v,
+		.table_u = tables,
+		.table_v = tables + shape[NET_SHAPE_LENGTH] * NET_TABLE_SIZE(shared->order_u),
+		.colours = shared->colours,
+		.directions = shared->directions,
+		.members = shared->members,
+		.heights = heights,
+		.samples = samples,
+		.ways = scratch + 3 * (size_t)nodes,
+		.sums = scratch + NET_STATE_COUNT * (size_t)nodes,
+		.rounding = settings[NET_SETTING_ROUNDING],
+	};
+	scalar gathered[2];
+	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays, outcome, gathered);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2,fma"))) static void
+work_with_fma(const reference_net_search *shared, const scalar *tables, const scalar *heights,
+              const scalar *samples, scalar *arrays, const scalar *settings, scalar *outcome,
+              scalar *scratch)
+{
+	work_search(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+}
+#endif
+
+void NET_SEARCH_FUNCTION(const reference_net_search *shared, const scalar *tables,
+                         const scalar *heights, const scalar *samples, scalar *arrays,
+                         const scalar *settings, scalar *outcome, scalar *scratch)
+{
+#if defined(__x86_64__)
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+		work_with_fma(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+		return;
+	}
+#endif
+	work_search(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+}

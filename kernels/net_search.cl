@@ -1,0 +1,60 @@
+/* The multilevel pattern search over the y of control nets (Hooke and Jeeves; thesis 7.2), whole
+ * searches in one launch.
+ *
+ * A work-group runs BATTEN_LANES searches side by side, one a lane of `real`; its work-items share
+ * the directions of each colour. On a CPU: many lanes, one work-item. On a GPU: one lane, many
+ * work-items. Every direction and every sum is worked in one fixed order by one work-item, so the
+ * shape does not change a bit of the result.
+ *
+ * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for nets whose state does
+ * not fit local memory), NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V. */
+#define BATTEN_DIALECT_OPENCL
+#include "shared/dialect.h"
+#include "shared/net_energy.h"
+/* The objective first: the driver calls it. */
+#include "shared/search_driver.h"
+
+/* shape: NET_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE numbers a sample along u, then along v. samples
+ * [group][line][sample][NET_SAMPLE_SIZE], arrays [group][NET_ARRAY_COUNT][poles], settings
+ * [group][NET_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: NET_STATE_COUNT
+ * nets of real a group. sums: a real a line. gathered: two reals a work-item. */
+kernel void net_search(global const int *shape, global const int *first_u,
+                       global const int *first_v, global const int *colours,
+                       global const int *directions, global const int *members,
+                       global const scalar *heights, global const scalar *tables,
+                       global const real *samples, global real *arrays, global const real *settings,
+                       global real *outcome, STATE real *room, local real *sums,
+                       local real *gathered)
+{
+	const size_t group = get_group_id(0);
+	search_state s;
+	s.columns = shape[NET_SHAPE_COLUMNS];
+	s.nodes = s.columns * shape[NET_SHAPE_ROWS];
+	s.length = shape[NET_SHAPE_LENGTH];
+	s.lines = shape[NET_SHAPE_LINES];
+	s.colour_count = shape[NET_SHAPE_COLOURS];
+#if defined(STATE_IS_GLOBAL)
+	room += group * NET_STATE_COUNT * (size_t)s.nodes;
+#endif
+	arrays += group * NET_ARRAY_COUNT * (size_t)s.nodes;
+	settings += group * NET_SETTING_COUNT;
+	s.y = room;
+	s.base = room + s.nodes;
+	s.trial = room + 2 * s.nodes;
+	s.ways = room + 3 * s.nodes;
+	s.lower = arrays + NET_ARRAY_LOWER * s.nodes;
+	s.upper = arrays + NET_ARRAY_UPPER * s.nodes;
+	s.first_u = first_u;
+	s.first_v = first_v;
+	s.table_u = tables;
+	s.table_v = tables + s.length * NET_TABLE_SIZE(NET_ORDER_U);
+	s.colours = colours;
+	s.directions = directions;
+	s.members = members;
+	s.heights = heights;
+	s.samples = samples + group * (size_t)(s.lines * s.length) * (size_t)NET_SAMPLE_NUMBERS;
+	s.sums = sums;
+	s.rounding = settings[NET_SETTING_ROUNDING];
+	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays,
+	           outcome + group * SEARCH_OUTCOME_COUNT, gathered);
+}

@@ -1,0 +1,260 @@
+/* The objective of a search over a control net: fairness of the surface (thesis 7.1; Letcher 4.5) and
+ * closeness, integrated over knot spans.
+ *
+ * Defined before this is included: NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V; constants in OpenCL, in C
+ * they may look into `s`, the state at hand. */
+#ifndef BATTEN_SHARED_NET_ENERGY_H
+#define BATTEN_SHARED_NET_ENERGY_H
+
+#include "dialect.h"
+#include "multilevel.h"
+#include "net_layout.h"
+#include "surface_point.h"
+#include "surface_variation.h"
+
+#define NET_THIRD (NET_FAIRNESS == NET_FAIRNESS_VARIATION)
+#define NET_SAMPLE_NUMBERS (NET_THIRD ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE)
+
+typedef struct search_state {
+	int nodes;         /* poles */
+	int columns;       /* poles along u */
+	int lines, length; /* samples along v, along u */
+	int colour_count;
+	int order_u, order_v, fairness;
+	STATE real *y, *base, *trial, *ways; /* [v][u] */
+	GLOBAL const real *lower, *upper;
+	GLOBAL const int *first_u, *first_v; /* the first pole a sample sees */
+	GLOBAL const scalar *table_u, *table_v;
+	GLOBAL const int *colours, *directions, *members; /* members: numbers of poles */
+	GLOBAL const scalar *heights;                     /* of the members */
+	GLOBAL const real *samples;                       /* [line][sample][NET_SAMPLE_SIZE] */
+	LOCAL real *sums;                                 /* one a line */
+	real rounding;
+} search_state;
+
+typedef struct search_move {
+	int first, end, line, line_end, sample, sample_end;
+	real step;
+} search_move;
+
+/* The way from the target and its derivatives at a sample. */
+typedef struct net_jet {
+	real at, u, v, uu, uv, vv, uuu, uuv, uvv, vvv;
+} net_jet;
+
+/* A column of the net taken together along v: value and derivatives. */
+typedef struct net_pole {
+	real derivative[4];
+} net_pole;
+
+SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE real *column,
+                                      GLOBAL const scalar *table)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	net_pole pole = { { zero, zero, zero, zero } };
+	ROLLED
+	for (int a = 0; a < NET_ORDER_V; a++) {
+		const real y = column[a * s->columns];
+		pole.derivative[0] = FUSED(SPREAD(table[a]), y, pole.derivative[0]);
+		pole.derivative[1] = FUSED(SPREAD(table[NET_ORDER_V + a]), y, pole.derivative[1]);
+		pole.derivative[2] = FUSED(SPREAD(table[2 * NET_ORDER_V + a]), y, pole.derivative[2]);
+		if (NET_THIRD)
+			pole.derivative[3] = FUSED(SPREAD(table[3 * NET_ORDER_V + a]), y, pole.derivative[3]);
+	}
+	return pole;
+}
+
+/* The poles of a line are kept in a ring: column c in place c % order. */
+SHARED_FUNCTION net_jet net_jet_of(const search_state *s, const net_pole *ring, int first,
+                                   GLOBAL const scalar *table)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	net_jet j = { zero, zero, zero, zero, zero, zero, zero, zero, zero, zero };
+	ROLLED
+	for (int b = 0; b < NET_ORDER_U; b++) {
+		const net_pole *pole = ring + (first + b) % NET_ORDER_U;
+		const real t0 = SPREAD(table[b]);
+		const real t1 = SPREAD(table[NET_ORDER_U + b]);
+		const real t2 = SPREAD(table[2 * NET_ORDER_U + b]);
+		j.at = FUSED(t0, pole->derivative[0], j.at);
+		j.u = FUSED(t1, pole->derivative[0], j.u);
+		j.v = FUSED(t0, pole->derivative[1], j.v);
+		j.uu = FUSED(t2, pole->derivative[0], j.uu);
+		j.uv = FUSED(t1, pole->derivative[1], j.uv);
+		j.vv = FUSED(t0, pole->derivative[2], j.vv);
+		if (NET_THIRD) {
+			const real t3 = SPREAD(table[3 * NET_ORDER_U + b]);
+			j.uuu = FUSED(t3, pole->derivative[0], j.uuu);
+			j.uuv = FUSED(t2, pole->derivative[1], j.uuv);
+			j.uvv = FUSED(t1, pole->derivative[2], j.uvv);
+			j.vvv = FUSED(t0, pole->derivative[3], j.vvv);
+		}
+	}
+	return j;
+}
+
+SHARED_FUNCTION surface_triple net_triple(GLOBAL const real *sample, int x, int z, int target,
+                                          real way)
+{
+	const surface_triple t = { sample[x], sample[target] + way, sample[z] };
+	return t;
+}
+
+SHARED_FUNCTION surface_jet net_surface_jet(GLOBAL const real *sample, net_jet d)
+{
+	surface_jet j;
+	j.at = triple_zero();
+	j.u = net_triple(sample, NET_SAMPLE_X, NET_SAMPLE_Z, NET_SAMPLE_TARGET, d.u);
+	j.v = net_triple(sample, NET_SAMPLE_X + 1, NET_SAMPLE_Z + 1, NET_SAMPLE_TARGET + 1, d.v);
+	j.uu = net_triple(sample, NET_SAMPLE_X + 2, NET_SAMPLE_Z + 2, NET_SAMPLE_TARGET + 2, d.uu);
+	j.uv = net_triple(sample, NET_SAMPLE_X + 3, NET_SAMPLE_Z + 3, NET_SAMPLE_TARGET + 3, d.uv);
+	j.vv = net_triple(sample, NET_SAMPLE_X + 4, NET_SAMPLE_Z + 4, NET_SAMPLE_TARGET + 4, d.vv);
+	return j;
+}
+
+SHARED_FUNCTION surface_third net_surface_third(GLOBAL const real *sample, net_jet d)
+{
+	surface_third t;
+	t.uuu = net_triple(sample, NET_SAMPLE_X_THIRD, NET_SAMPLE_Z_THIRD, NET_SAMPLE_TARGET_THIRD,
+	                   d.uuu);
+	t.uuv = net_triple(sample, NET_SAMPLE_X_THIRD + 1, NET_SAMPLE_Z_THIRD + 1,
+	                   NET_SAMPLE_TARGET_THIRD + 1, d.uuv);
+	t.uvv = net_triple(sample, NET_SAMPLE_X_THIRD + 2, NET_SAMPLE_Z_THIRD + 2,
+	                   NET_SAMPLE_TARGET_THIRD + 2, d.uvv);
+	t.vvv = net_triple(sample, NET_SAMPLE_X_THIRD + 3, NET_SAMPLE_Z_THIRD + 3,
+	                   NET_SAMPLE_TARGET_THIRD + 3, d.vvv);
+	return t;
+}
+
+/* A fairness of first and second derivatives times dA / (du dv). With n = by_v x by_u, not made a
+ * unit, e = n.by_uu ..., and m = e G - 2 f F + g E: H = m / (2 n^3), K = (e g - f^2) / n^4; one
+ * division and one root. */
+SHARED_FUNCTION real net_density(const search_state *s, surface_jet j)
+{
+	const real one = SPREAD(LITERAL(1.0));
+	const real two = SPREAD(LITERAL(2.0));
+	const surface_triple normal = triple_outer(j.v, j.u);
+	const real square = triple_inner(normal, normal);
+	const real e = triple_inner(normal, j.uu);
+	const real f = triple_inner(normal, j.uv);
+	const real g = triple_inner(normal, j.vv);
+	const real inverse = one / square;
+	const real gauss = FUSED(e, g, -(f * f));
+	if (NET_FAIRNESS == NET_FAIRNESS_GAUSS) {
+		/* sqrt(K^2 + rounding) n */
+		const real part = gauss * inverse;
+		return SQUARE_ROOT(FUSED(part * part, inverse, s->rounding * square));
+	}
+	const real first_uu = triple_inner(j.u, j.u);
+	const real first_uv = triple_inner(j.u, j.v);
+	const real first_vv = triple_inner(j.v, j.v);
+	const real mean = FUSED(e, first_vv, FUSED(g, first_uu, -((two * f) * first_uv)));
+	const real mean2 = (mean * mean) * inverse;
+	const real root = SQUARE_ROOT(inverse);
+	if (NET_FAIRNESS == NET_FAIRNESS_MEAN)
+		return ((SPREAD(LITERAL(0.25)) * mean2) * inverse) * root;
+	return (FUSED(-two, gauss, mean2) * inverse) * root;
+}
+
+SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const real *sample,
+                                          net_jet d)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real fair = sample[NET_SAMPLE_FAIR];
+	const surface_jet j = net_surface_jet(sample, d);
+	real density;
+	if (NET_THIRD) {
+		const surface_shape shape = surface_shape_of(j, zero);
+		density = surface_variation_of(j, net_surface_third(sample, d), shape).density * shape.area;
+	} else {
+		density = net_density(s, j);
+	}
+	const real energy = fair * density;
+	return FUSED(sample[NET_SAMPLE_CLOSE] * d.at, d.at, CHOOSE(fair > zero, energy, zero));
+}
+
+/* Samples sample .. sample_end of one line with the net y. */
+SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real *y, int line,
+                                        int sample, int sample_end)
+{
+	const int size = NET_SAMPLE_NUMBERS;
+	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
+	GLOBAL const real *at = s->samples + (size_t)(line * s->length) * (size_t)size;
+	const STATE real *row = y + s->first_v[line] * s->columns;
+	net_pole ring[NET_ORDER_MOST];
+	real sum = SPREAD(LITERAL(0.0));
+	int reached = s->first_u[sample];
+	ROLLED
+	for (int i = sample; i < sample_end; i++) {
+		const int first = s->first_u[i];
+		ROLLED
+		for (; reached < first + NET_ORDER_U; reached++)
+			ring[reached % NET_ORDER_U] = net_collapse(s, row + reached, table);
+		const net_jet d = net_jet_of(s, ring, first, s->table_u + i * NET_TABLE_SIZE(NET_ORDER_U));
+		sum += net_sample_objective(s, at + (size_t)i * (size_t)size, d);
+	}
+	return sum;
+}
+
+/* ------------------------------------------------------------------------------------------------
+ * What search_driver.h asks for
+ * --------------------------------------------------------------------------------------------- */
+
+SHARED_FUNCTION void colour_range(const search_state *s, int colour, int *first, int *end)
+{
+	*first = s->colours[colour];
+	*end = s->colours[colour + 1];
+}
+
+/* A direction's poles are moved in place, from where they were, kept in trial: no other direction of
+ * its colour reads them. */
+SHARED_FUNCTION void move_begin(const search_state *s, int colour, int direction, search_move *move)
+{
+	GLOBAL const int *d = s->directions + direction * NET_DIRECTION_SIZE;
+	(void)colour;
+	move->first = d[NET_DIRECTION_FIRST];
+	move->end = d[NET_DIRECTION_END];
+	move->line = d[NET_DIRECTION_LINE];
+	move->line_end = d[NET_DIRECTION_LINE_END];
+	move->sample = d[NET_DIRECTION_SAMPLE];
+	move->sample_end = d[NET_DIRECTION_SAMPLE_END];
+	ROLLED
+	for (int m = move->first; m < move->end; m++)
+		s->trial[s->members[m]] = s->y[s->members[m]];
+}
+
+SHARED_FUNCTION void move_end(const search_state *s, const search_move *move)
+{
+	ROLLED
+	for (int m = move->first; m < move->end; m++) {
+		const int n = s->members[m];
+		s->y[n] = move_clamped(s->trial[n], SPREAD(s->heights[m]) * move->step, s->lower[n],
+		                       s->upper[n]);
+	}
+}
+
+SHARED_FUNCTION real move_objective(const search_state *s, const search_move *move)
+{
+	real sum = SPREAD(LITERAL(0.0));
+	move_end(s, move);
+	ROLLED
+	for (int line = move->line; line < move->line_end; line++)
+		sum += net_line_objective(s, s->y, line, move->sample, move->sample_end);
+	return sum;
+}
+
+SHARED_FUNCTION real whole_objective(const search_state *s)
+{
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		s->sums[line] = net_line_objective(s, s->trial, line, 0, s->length);
+	WAIT;
+	real sum = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int line = 0; line < s->lines; line++)
+		sum += s->sums[line];
+	WAIT;
+	return sum;
+}
+
+#endif

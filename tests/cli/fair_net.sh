@@ -1,0 +1,88 @@
+#!/bin/sh
+# batten fair --variables net: what it writes, what it refuses.
+. "$(dirname "$0")/lib.sh"
+without_pictures
+hull=$hulls/wigley_noisy.csv
+net="--variables net --net 8x7 --w1 1 --w2 1e4"
+
+# shellcheck disable=SC2086 # words without blanks are split on purpose
+expect 0 fair "$hull" $net --device reference --out plain --quiet
+for name in faired.csv report.json surface.json lines.svg; do
+	[ -s "plain/$name" ] || fail "plain/$name was not written"
+done
+same_form "$hull" plain/faired.csv
+expect_json plain/report.json
+expect_json plain/surface.json
+report=plain/report.json
+[ "$(member "$report" method variables)" = net ] || fail 'the report does not say: net'
+[ "$(member "$report" surface count_u)" = 8 ] || fail 'the report has another net'
+[ "$(member "$report" surface frame)" = ap-fwd ] || fail 'the frame of the surface is missing'
+[ "$(member "$report" surface unit)" = m ] || fail 'the unit of the surface is missing'
+holds 'fit of the noisy hull' 'rms > 0.3 && rms < 0.6' \
+	"rms=$(member "$report" surface fit_deviation_rms_pct)"
+holds 'objective' 'after < before' "before=$(member "$report" search objective_before)" \
+	"after=$(member "$report" search objective_after)"
+
+# Any device: the same bits.
+# shellcheck disable=SC2086
+expect 0 fair "$hull" $net --device auto --out auto --quiet
+for name in faired.csv surface.json; do
+	cmp -s "plain/$name" "auto/$name" || fail "$name differs between reference and auto"
+done
+
+# A locked waterline keeps its numbers; the file without the net leaves no older surface behind.
+z=$(table_of "$hull" | awk -F, 'NR == 12 { print $1 }')
+# shellcheck disable=SC2086
+expect 0 fair "$hull" $net --lock "waterline:$z,row:3,edge:deck" --fix-tangent stem \
+	--device reference --out plain --quiet
+for x in 3.2 8 12.8; do
+	[ "$(cell "$hull" $x "$z")" = "$(cell plain/faired.csv $x "$z")" ] ||
+		fail "the locked offset at x $x, z $z changed"
+done
+expect 0 fair "$hull" --w1 1 --w2 1e4 --device reference --out plain --quiet
+[ -e plain/surface.json ] && fail 'an older surface.json was left behind'
+
+# The net is chosen from the table where nobody says, and a surface fits what it says.
+expect 0 fair "$hulls/bsra_trawler.csv" --variables net --device reference --out trawler --quiet
+[ "$(member trawler/report.json surface count_u)x$(member trawler/report.json surface count_v)" = 12x7 ] ||
+	fail 'the trawler got another net'
+expect 1 fair "$hull" --variables net --net 8x7 --w1 1 --w2 1 --iterations 1 --out few \
+	--device reference
+says 'iteration limit'
+
+# refuses CODE PATTERN ARGUMENT...: one line, and nothing is written.
+refuses()
+{
+	_expected=$1
+	_pattern=$2
+	shift 2
+	expect "$_expected" fair "$hull" --out refused "$@"
+	one_line
+	says "$_pattern"
+	[ -e refused ] && fail "batten fair $*: something was written"
+}
+refuses 2 '--net is about a net' --net 8x7
+refuses 2 '--order is about a net' --order 4x4
+refuses 2 '--fix-tangent is about a net' --fix-tangent stem
+refuses 2 '--round is about a net' --round keel
+refuses 2 'is about a net' --lock row:1
+refuses 2 '--fairness: ' --fairness gauss
+refuses 2 '--fairness: ' --variables net --fairness smooth
+refuses 2 '--variables: ' --variables poles
+refuses 2 '--net: ' --variables net --net 8
+refuses 2 '--net: ' --variables net --net 0x7
+refuses 2 '--order: ' --variables net --order 4,4
+refuses 2 'order 9' --variables net --order 9x4 --net 12x9
+refuses 2 '--fix-tangent: ' --variables net --fix-tangent bow
+refuses 2 '--round: ' --variables net --round deck
+refuses 2 'found row 7' --variables net --net 8x7 --lock row:7
+refuses 2 'found column 8' --variables net --net 8x7 --lock column:8
+refuses 2 '--lock: ' --variables net --lock pole:1
+refuses 2 '--lock edge: ' --variables net --lock edge:bow
+refuses 2 '--lower bounds' --variables net --lower "$hull"
+refuses 2 '--upper bounds' --variables net --upper "$hull"
+hull=$hulls/bsra_trawler.csv
+refuses 2 'cannot be rounded' --variables net --net 12x7 --round stem
+hull=$hulls/wigley_noisy.csv
+refuses 3 'expected at least 22' --variables net --net 22x7
+finish
