@@ -12,6 +12,8 @@ const bench_entry bench_entries[] = {
 	  bench_surface_curvature_grid },
 	{ "surface.energy", "fairness integrals of B-spline surfaces, OpenCL against the plain C path",
 	  bench_surface_energy },
+	{ "surface.opencascade", "the same grid against OpenCASCADE, where that is installed",
+	  bench_surface_opencascade },
 	{ NULL, NULL, NULL },
 };
 

@@ -35,6 +35,10 @@ extern const bench_entry bench_entries[];
 batten_status bench_search_multilevel(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
 batten_status bench_surface_energy(const bench_settings *settings);
+batten_status bench_surface_opencascade(const bench_settings *settings);
+
+/* Noisy Wigley hull of this number as a bicubic surface of 24 x 12 poles. */
+batten_status bench_surface_hull(batten_context *context, uint32_t number, batten_surface **out);
 
 /* ---- pairs ---- */
 enum { BENCH_PAIRS = 7 };

@@ -31,8 +31,9 @@ static void workload_release(workload *w)
 	free(w->known_energies);
 }
 
-static batten_status make_surface(batten_context *context, uint32_t state, batten_surface **out)
+batten_status bench_surface_hull(batten_context *context, uint32_t number, batten_surface **out)
 {
+	uint32_t state = 2654435761u * (number + 1);
 	double poles[3 * POLES];
 	for (int n = 0; n < POLES; n++) {
 		const int i = n % ALONG;
@@ -70,7 +71,7 @@ static batten_status workload_create(const bench_settings *settings, bool energy
 		w->v[k] = k / (GRID_V - 1.0);
 	batten_status status = BATTEN_OK;
 	for (size_t s = 0; s < w->count && status == BATTEN_OK; s++)
-		status = make_surface(settings->context, 2654435761u * (uint32_t)(s + 1), &w->surfaces[s]);
+		status = bench_surface_hull(settings->context, (uint32_t)s, &w->surfaces[s]);
 	return status;
 }
 

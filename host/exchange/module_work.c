@@ -221,11 +221,6 @@ static batten_status fail_end(batten_context *context, const module_task *task,
 		                   "libocct-data-exchange-dev and build batten again",
 		                   task->path);
 	case BATTEN_MEMORY:
-		/* The file's counts are what asks for memory. */
-		if (!task->nets)
-			return batten_fail(context, BATTEN_INPUT,
-			                   "%s: asks for more memory than there is: damaged, or too large",
-			                   task->path);
 		return batten_fail_memory(context);
 	case BATTEN_INPUT:
 		return batten_fail(context, BATTEN_INPUT, "%s: %s", task->path, message);

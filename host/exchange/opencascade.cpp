@@ -68,13 +68,13 @@ namespace
 /* How far along the edge of its rectangle of parameters a curve goes; < 0 where it leaves it. */
 double length_on_edge(const Geom2d_Curve &curve, double first, double last, const double box[4])
 {
-	enum { STEPS = 16 };
+	const int steps = 16;
 	const double near_u = 1e-6 * (box[1] - box[0]);
 	const double near_v = 1e-6 * (box[3] - box[2]);
 	double length = 0;
 	gp_Pnt2d before;
-	for (int i = 0; i <= STEPS; i++) {
-		const gp_Pnt2d at = curve.Value(first + (last - first) * i / STEPS);
+	for (int i = 0; i <= steps; i++) {
+		const gp_Pnt2d at = curve.Value(first + (last - first) * i / steps);
 		const double u = std::min(std::abs(at.X() - box[0]), std::abs(at.X() - box[1]));
 		const double v = std::min(std::abs(at.Y() - box[2]), std::abs(at.Y() - box[3]));
 		if (!(u <= near_u || v <= near_v))

@@ -68,8 +68,8 @@ refuses 2 '3 poles along the hull' "$hull" --net 3x5
 refuses 2 "--rounded: found 'deck'" "$hull" --net 5x5 --rounded deck
 refuses 2 "--rounded: found 'keel,'" "$hull" --net 5x5 --rounded keel,
 refuses 2 'the stern cannot be rounded' "$hulls/npl_parent.csv" --net 8x8 --rounded stern
-refuses 2 "--out: found 's.obj'" "$hull" --net 5x5 --out s.obj
-refuses 2 '.json' "$hull" --net 5x5 --out .json
+refuses 2 "--out: found 's.stl'" "$hull" --net 5x5 --out s.stl
+refuses 2 "--out: found '.json'" "$hull" --net 5x5 --out .json
 refuses 3 'at least 14: one for each pole' "$hull" --net 14x5
 refuses 3 'found 260 points, expected at least 400' "$hull" --net 20x20
 refuses 6 'none.csv' none.csv --net 4x4

@@ -14,12 +14,13 @@ for word in --help -h help; do
 	expect 0 "$word"
 	prints 'fair .*'
 	prints 'measure .*'
+	prints 'convert .*'
 	prints 'devices .*'
 	prints 'selftest .*'
 	prints 'bench .*'
 	prints '^exit codes'
 done
-for command in fair measure devices selftest bench; do
+for command in fair measure convert devices selftest bench; do
 	for word in --help -h; do
 		expect 0 $command $word
 		prints "^usage: batten $command"

@@ -4,5 +4,5 @@
 #   format.sh REPOSITORY CLANG_FORMAT
 set -eu
 cd "$1"
-find host kernels tests data bench \( -name '*.c' -o -name '*.h' -o -name '*.cl' \) -type f \
+find host kernels tests data bench \( -name '*.c' -o -name '*.h' -o -name '*.cl' -o -name '*.cpp' \) -type f \
 	-exec "$2" --dry-run -Werror {} +

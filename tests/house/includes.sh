@@ -17,7 +17,7 @@ reference     shared
 batch         core device reference shared generated-kernels
 geometry      core hull batch shared
 io            core hull geometry
-exchange      core hull geometry io
+exchange      core hull geometry
 picture       core hull geometry shared generated-shaders
 ray           core hull geometry
 hydrostatics  core hull geometry batch shared
@@ -47,7 +47,7 @@ nlopt.h   test oracle
 Random123 data test
 '
 
-find host kernels tests data bench \( -name '*.c' -o -name '*.h' -o -name '*.cl' \) -type f 2>/dev/null |
+find host kernels tests data bench \( -name '*.c' -o -name '*.h' -o -name '*.cl' -o -name '*.cpp' \) -type f 2>/dev/null |
 	LC_ALL=C sort >"${TMPDIR:-/tmp}/batten-includes.$$"
 trap 'rm -f "${TMPDIR:-/tmp}/batten-includes.$$"' EXIT
 
@@ -134,6 +134,8 @@ function check(file, room, line, number, name, target, i, part, allowed) {
 			sub(/^[^<]*</, "", name); sub(/>.*$/, "", name)
 			if (room == "kernels" || room == "shared" && name != "math.h")
 				complain(file, number, "a kernel includes <" name ">")
+			if (name ~ /\.hxx$/ && room != "exchange" && room != "bench")
+				complain(file, number, room " may not include <" name ">")
 			for (i = 1; i <= libraries; i++) {
 				split(library[i], part, /[ \t]+/)
 				if (index(name, part[1]) != 1) continue

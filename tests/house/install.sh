@@ -47,6 +47,11 @@ check()
 	library=$(dirname "$(find "$prefix" -name 'libbatten.*' | head -n 1)")
 	[ "$("$prefix/bin/batten" --version | grep -c "$version")" -ge 1 ] || fail "$1: batten --version"
 	cmp "$repository/data/hulls/npl_parent.csv" "$prefix/share/batten/hulls/npl_parent.csv"
+	# The module is found where it is installed; a build without it says so.
+	if [ -n "$(find "$prefix" -name batten_opencascade.so)" ]; then
+		env -u BATTEN_MODULE_PATH "$prefix/bin/batten" surface "$repository/data/hulls/wigley.csv" \
+			--net 3x3 --order 3x3 --out "$folder/$1.igs" >/dev/null || fail "$1: the module is not found"
+	fi
 
 	PKG_CONFIG_PATH=$library/pkgconfig
 	export PKG_CONFIG_PATH
