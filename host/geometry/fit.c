@@ -111,12 +111,20 @@ static void measure(const batten_hull *hull, const struct fit_points *points,
 	out->max_pct = 100.0 * out->max_m / half_beam;
 }
 
-/* Every point takes the parameters of its nearest point (Hoschek); those on an edge stay on it. */
+/* Every point takes the parameters of its nearest point (Hoschek); those on an edge or a crease stay
+ * on it, and no point goes over a crease. */
 static void correct(struct fit_points *points, const struct batten_surface *surface)
 {
 	for (size_t p = 0; p < points->count; p++) {
 		struct fit_point *point = &points->point[p];
-		(void)fit_nearest(surface, point->place, point->on_u, point->on_v, &point->u, &point->v);
+		double u = point->u;
+		double v = point->v;
+		(void)fit_nearest(surface, point->place, point->on_u, point->on_v, &u, &v);
+		if (fit_knuckles_crossed(points, false, point->u, u) ||
+		    fit_knuckles_crossed(points, true, point->v, v))
+			continue;
+		point->u = u;
+		point->v = v;
 	}
 }
 
@@ -127,17 +135,21 @@ static void swap(struct batten_surface **a, struct batten_surface **b)
 	*b = kept;
 }
 
-/* Fits, corrects and fits again as long as that gains; the best stays in *best. */
+/* Fits, corrects and fits again as long as that gains; the best stays in *best. *free_pole as
+ * fit_net_solve() has it for the points where the table puts them; where corrections leave a pole free,
+ * the deviation tells what the net is worth. */
 static batten_status improve(const batten_hull *hull, const batten_fit_options *options,
-                             const struct fit_edges *edges, struct fit_points *points,
-                             struct batten_surface **best, batten_fit_deviation *deviation)
+                             const struct fit_edges *edges, struct fit_points *points, bool fill,
+                             struct batten_surface **best, batten_fit_deviation *deviation,
+                             size_t *free_pole)
 {
 	struct batten_surface *next = NULL;
-	batten_status status = fit_net_solve(points, edges, options->stiffness, *best);
-	if (status == BATTEN_OK) {
-		measure(hull, points, *best, deviation);
-		status = batten_surface_clone(hull->context, *best, &next);
-	}
+	size_t freed = SIZE_MAX;
+	batten_status status = fit_net_solve(points, edges, options->stiffness, *best, fill, free_pole);
+	if (status != BATTEN_OK || *free_pole != SIZE_MAX)
+		return status;
+	measure(hull, points, *best, deviation);
+	status = batten_surface_clone(hull->context, *best, &next);
 	unsigned idle = 0;
 	for (unsigned round = 1;
 	     status == BATTEN_OK && idle < PATIENCE && round <= options->correction_limit; round++) {
@@ -145,8 +157,8 @@ static batten_status improve(const batten_hull *hull, const batten_fit_options *
 			break;
 		batten_fit_deviation found;
 		correct(points, idle ? next : *best);
-		status = fit_net_solve(points, edges, options->stiffness, next);
-		if (status != BATTEN_OK)
+		status = fit_net_solve(points, edges, options->stiffness, next, true, &freed);
+		if (status != BATTEN_OK || freed != SIZE_MAX)
 			break;
 		measure(hull, points, next, &found);
 		idle = found.rms_m < (1.0 - least_gain) * deviation->rms_m ? 0 : idle + 1;
@@ -160,9 +172,11 @@ static batten_status improve(const batten_hull *hull, const batten_fit_options *
 	return status;
 }
 
+/* *out stays NULL where the points leave a pole free. */
 static batten_status fit_with(const batten_hull *hull, const batten_fit_options *options,
-                              const struct fit_outline *outline, enum fit_girth girth,
-                              struct batten_surface **out, batten_fit_deviation *deviation)
+                              const struct fit_outline *outline, enum fit_girth girth, bool fill,
+                              struct batten_surface **out, batten_fit_deviation *deviation,
+                              size_t *free_pole)
 {
 	struct fit_points points;
 	struct batten_surface *surface = NULL;
@@ -177,16 +191,28 @@ static batten_status fit_with(const batten_hull *hull, const batten_fit_options 
 	if (status == BATTEN_OK)
 		status = choose_edges(hull->context, options, &points, &edges);
 	if (status == BATTEN_OK)
-		status = improve(hull, options, &edges, &points, &surface, deviation);
+		status = improve(hull, options, &edges, &points, fill, &surface, deviation, free_pole);
 	fit_points_destroy(&points);
-	if (status == BATTEN_OK)
+	if (status == BATTEN_OK && *free_pole == SIZE_MAX)
 		*out = surface;
 	else
 		batten_surface_destroy(surface);
 	return status;
 }
 
-/* Both ways to spread the points along the sections; the one that comes closer stays. */
+static batten_status fail_free(const batten_hull *hull, const batten_fit_options *options,
+                               size_t pole)
+{
+	return batten_fail(hull->context, BATTEN_INPUT,
+	                   "%s: the points do not determine pole %zu of %zu along the hull, %zu of %zu "
+	                   "along the sections: too few points there for so many poles",
+	                   hull->name, pole % options->count_u + 1, options->count_u,
+	                   pole / options->count_u + 1, options->count_v);
+}
+
+/* Both ways to spread the points along the sections; the one that comes closer stays. One of them must
+ * determine the net: then the table has the points for it, and what the other leaves free goes on
+ * straight. */
 static batten_status fit_best(const batten_hull *hull, const batten_fit_options *options,
                               struct batten_surface **out, batten_fit_deviation *deviation)
 {
@@ -196,10 +222,14 @@ static batten_status fit_best(const batten_hull *hull, const batten_fit_options 
 		return status;
 	struct batten_surface *by_chord = NULL;
 	batten_fit_deviation found;
-	status = fit_with(hull, options, &outline, FIT_GIRTH_HEIGHT, out, deviation);
-	if (status == BATTEN_OK && deviation->rms_m > exact * batten_hull_half_beam_m(hull))
-		status = fit_with(hull, options, &outline, FIT_GIRTH_CHORD, &by_chord, &found);
-	if (status == BATTEN_OK && by_chord && found.rms_m < deviation->rms_m) {
+	size_t free_pole = SIZE_MAX, free_by_chord = SIZE_MAX;
+	status = fit_with(hull, options, &outline, FIT_GIRTH_HEIGHT, false, out, deviation, &free_pole);
+	if (status == BATTEN_OK && (!*out || deviation->rms_m > exact * batten_hull_half_beam_m(hull)))
+		status = fit_with(hull, options, &outline, FIT_GIRTH_CHORD, *out != NULL, &by_chord, &found,
+		                  &free_by_chord);
+	if (status == BATTEN_OK && !*out && !by_chord)
+		status = fail_free(hull, options, free_pole);
+	if (status == BATTEN_OK && by_chord && (!*out || found.rms_m < deviation->rms_m)) {
 		swap(out, &by_chord);
 		*deviation = found;
 	}

@@ -2,6 +2,7 @@
  *
  * fit_outline  where keel, stem, stern and deck run in the table
  * fit_points   the points with their parameters, from the outline, and the knots
+ * fit_knuckles parameters and knots where the hull has knuckle lines
  * fit_net      the linear system: which pole is which unknown, normal equations, solution
  * fit_nearest  the point of a surface that is nearest to a point of the hull */
 #ifndef BATTEN_GEOMETRY_FIT_H
@@ -57,9 +58,13 @@ struct fit_points {
 	batten_context *context;
 	size_t count, given_count;
 	struct fit_point *point;
+	struct fit_point *mark; /* places of the hull's knuckles, in their order; y is unknown */
+	/* Parameters of the knuckle lines, ascending: [0] where u is constant, [1] where v is. */
+	size_t crease_count[2];
+	double *crease[2];
 };
 
-/* Points with u and v. Errors: MEMORY. */
+/* Points with u and v. Errors: INPUT (knuckles that do not join to lines), MEMORY. */
 batten_status fit_points_create(const batten_hull *hull, const struct fit_outline *outline,
                                 enum fit_girth girth, struct fit_points *out);
 void fit_points_destroy(struct fit_points *points);
@@ -74,9 +79,23 @@ batten_status fit_points_knots(const batten_hull *hull, const struct fit_points 
 batten_status fit_points_by_line(const struct fit_points *points, bool waterline, size_t lines,
                                  size_t **start, size_t **order);
 
+/* Bends the parameters of the points so that every knuckle line has one parameter, which becomes a
+ * crease. Errors: INPUT (knuckles that do not join to lines), MEMORY. */
+batten_status fit_knuckles_straighten(const batten_hull *hull, struct fit_points *points);
+
+/* Whether a crease lies between two parameters. */
+bool fit_knuckles_crossed(const struct fit_points *points, bool along_v, double from, double to);
+
+/* As bspline_knots_spread(), with the creases as knots repeated order - 1 times; line ("section")
+ * stands for what the poles run along. Errors: INPUT (too few poles or points), MEMORY. */
+batten_status fit_knuckles_knots(batten_context *context, const char *line,
+                                 const struct fit_points *points, bool along_v, size_t order,
+                                 size_t poles, size_t count, const double *parameters,
+                                 double *knots);
+
 /* v by chords instead of by height, for points as fit_points_create() fills them. */
-batten_status fit_girth_by_chords(size_t station_count, struct fit_points *points,
-                                  const struct fit_outline *outline, const double *station_x);
+batten_status fit_girth_by_chords(const batten_hull *hull, struct fit_points *points,
+                                  const struct fit_outline *outline);
 
 /* ------------------------------------------------------------------------------------------------
  * Net
@@ -88,15 +107,18 @@ struct fit_edges {
 	unsigned rounded;                      /* BATTEN_ROUNDED_... */
 };
 
-/* Poles of surface by least squares over the points at their parameters. Where the points leave a
- * pole free, the net goes on straight; stiffness, as in batten_fit_options, is what that weighs.
- * Errors: MEMORY, INPUT (not to be solved). */
+/* Poles of surface by least squares over the points at their parameters. Where the points leave a pole
+ * free, fill lets the net go on straight, with stiffness as in batten_fit_options; without fill
+ * *free_pole gets the number (count_u of a row) of such a pole and the net is void. *free_pole is
+ * SIZE_MAX where there is a net. Errors: MEMORY. */
 batten_status fit_net_solve(const struct fit_points *points, const struct fit_edges *edges,
-                            double stiffness, struct batten_surface *surface);
+                            double stiffness, struct batten_surface *surface, bool fill,
+                            size_t *free_pole);
 
 /* Symmetric positive definite system with the lower band in rows: a[row * (width + 1) + width] is
- * the diagonal, width places before it the others. False when a pivot is not positive. */
-bool fit_band_factor(size_t count, size_t width, double *a);
+ * the diagonal, width places before it the others. Returns count, or the first row whose pivot is
+ * rounding: it depends on those before. */
+size_t fit_band_factor(size_t count, size_t width, double *a);
 void fit_band_solve(size_t count, size_t width, const double *factor, double *x);
 
 /* ------------------------------------------------------------------------------------------------

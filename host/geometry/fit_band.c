@@ -3,7 +3,10 @@
 
 #include <math.h>
 
-bool fit_band_factor(size_t count, size_t width, double *a)
+/* Pivots below this part of the diagonal have lost all but a few digits. */
+static const double least_pivot = 1e-11;
+
+size_t fit_band_factor(size_t count, size_t width, double *a)
 {
 	const size_t stride = width + 1;
 	for (size_t row = 0; row < count; row++) {
@@ -17,13 +20,13 @@ bool fit_band_factor(size_t count, size_t width, double *a)
 				sum -= this_row[k] * other[k];
 			if (column < row)
 				this_row[column] = sum / other[column];
-			else if (sum > 0.0 && isfinite(sum))
+			else if (sum > least_pivot * this_row[row] && isfinite(sum))
 				this_row[row] = sqrt(sum);
 			else
-				return false;
+				return row;
 		}
 	}
-	return true;
+	return count;
 }
 
 void fit_band_solve(size_t count, size_t width, const double *factor, double *x)

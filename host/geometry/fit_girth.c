@@ -57,23 +57,25 @@ static double beside(size_t count, const double *station_x, double x, size_t *be
 	return *after == *before ? 0.0 : (x - station_x[i]) / (station_x[i + 1] - station_x[i]);
 }
 
-static void move_points(size_t stations, const struct section *section, const double *station_x,
-                        struct fit_points *points)
+static void move_points(const batten_hull *hull, const struct section *section, size_t count,
+                        struct fit_point *points)
 {
-	for (size_t p = 0; p < points->count; p++) {
-		struct fit_point *point = &points->point[p];
+	for (size_t p = 0; p < count; p++) {
+		struct fit_point *point = &points[p];
 		if (point->on_v)
 			continue;
 		size_t before, after;
-		const double part = beside(stations, station_x, point->place[0], &before, &after);
+		const double part = beside(hull->station_count, hull->x_m, point->place[0], &before,
+		                           &after);
 		const double girth = girth_at(&section[before], point->v);
 		point->v = girth + part * (girth_at(&section[after], point->v) - girth);
 	}
 }
 
-batten_status fit_girth_by_chords(size_t station_count, struct fit_points *points,
-                                  const struct fit_outline *outline, const double *station_x)
+batten_status fit_girth_by_chords(const batten_hull *hull, struct fit_points *points,
+                                  const struct fit_outline *outline)
 {
+	const size_t station_count = hull->station_count;
 	batten_context *context = outline->context;
 	struct section *section = batten_allocate(context, station_count, sizeof *section);
 	double *room = batten_allocate(context, 2 * points->count, sizeof *room);
@@ -93,7 +95,8 @@ batten_status fit_girth_by_chords(size_t station_count, struct fit_points *point
 			used += count;
 			measure_section(count, sorted, &section[s]);
 		}
-		move_points(station_count, section, station_x, points);
+		move_points(hull, section, points->count, points->point);
+		move_points(hull, section, hull->knuckle_count, points->mark);
 	}
 	batten_release(context, section);
 	batten_release(context, room);

@@ -1,7 +1,7 @@
 /* The poles of a surface through points by least squares: normal equations of few bands, solved by
  * Cholesky and refined on the residuals of the points, which takes away what the small stiffness
- * put in and what squaring the matrix lost. The poles that no point determines lie where the net is
- * straightest. */
+ * put in and what squaring the matrix lost. Poles that no point determines would lie where the net is
+ * straightest: the caller says whether that will do. */
 #include "geometry/fit.h"
 
 #include <math.h>
@@ -20,6 +20,7 @@ struct system {
 	long *unknown;  /* [count_u][count_v], or FIXED: at 0 */
 	double *matrix; /* band of the factor */
 	double *vector;
+	double *places; /* of the poles of one direction */
 };
 
 /* The basis functions that count at a point. */
@@ -115,28 +116,23 @@ static void add_stiffness(struct system *system, size_t count, const double *pla
 	}
 }
 
-static batten_status assemble(struct system *system)
+/* The normal equations, with stiffness or without. */
+static void assemble(struct system *system, bool stiff)
 {
 	const struct batten_surface *s = system->surface;
+	memset(system->matrix, 0,
+	       s->count_u * s->count_v * (system->width + 1) * sizeof *system->matrix);
 	add_points(system);
+	if (!stiff)
+		return;
 	double trace = 0.0;
 	for (size_t i = 0; i < system->unknowns; i++)
 		trace += system->matrix[i * (system->width + 1) + system->width];
 	const double weight = system->stiffness * trace / (double)system->unknowns;
-	const size_t longest = s->count_u > s->count_v ? s->count_u : s->count_v;
-	double *places = batten_allocate(system->context, longest, sizeof *places);
-	if (!places)
-		return BATTEN_MEMORY;
-	bspline_knots_greville(s->order_u, s->count_u, s->knots_u, places);
-	add_stiffness(system, s->count_u, places, s->count_v, s->count_v, 1, weight);
-	bspline_knots_greville(s->order_v, s->count_v, s->knots_v, places);
-	add_stiffness(system, s->count_v, places, s->count_u, 1, s->count_v, weight);
-	batten_release(system->context, places);
-	if (!fit_band_factor(system->unknowns, system->width, system->matrix))
-		return batten_fail(system->context, BATTEN_INPUT,
-		                   "the points do not determine a net of %zu x %zu poles", s->count_u,
-		                   s->count_v);
-	return BATTEN_OK;
+	bspline_knots_greville(s->order_u, s->count_u, s->knots_u, system->places);
+	add_stiffness(system, s->count_u, system->places, s->count_v, s->count_v, 1, weight);
+	bspline_knots_greville(s->order_v, s->count_v, s->knots_v, system->places);
+	add_stiffness(system, s->count_v, system->places, s->count_u, 1, s->count_v, weight);
 }
 
 static double *pole_at(const struct batten_surface *s, size_t i, size_t j)
@@ -183,25 +179,44 @@ static bool refine(struct system *system, size_t coordinate)
 	return largest_step > settled * largest;
 }
 
-static batten_status solve(struct system *system, const struct fit_edges *edges, bool for_y)
+/* Number of the first pole that the unknown belongs to. */
+static size_t pole_of(const struct system *system, size_t unknown)
+{
+	const struct batten_surface *s = system->surface;
+	for (size_t j = 0; j < s->count_v; j++)
+		for (size_t i = 0; i < s->count_u; i++)
+			if (system->unknown[i * s->count_v + j] == (long)unknown)
+				return j * s->count_u + i;
+	return SIZE_MAX;
+}
+
+/* Returns SIZE_MAX or the pole for want of which there is no net. */
+static size_t solve(struct system *system, const struct fit_edges *edges, bool for_y, bool fill)
 {
 	number_unknowns(system, edges, for_y);
 	if (system->unknowns == 0)
-		return BATTEN_OK; /* all of it lies in the centreplane */
-	memset(system->matrix, 0,
-	       system->surface->count_u * system->surface->count_v * (system->width + 1) *
-	           sizeof *system->matrix);
-	const batten_status status = assemble(system);
+		return SIZE_MAX; /* all of it lies in the centreplane */
+	if (!fill) {
+		assemble(system, false);
+		const size_t done = fit_band_factor(system->unknowns, system->width, system->matrix);
+		if (done < system->unknowns)
+			return pole_of(system, done);
+	}
+	assemble(system, true);
+	const size_t done = fit_band_factor(system->unknowns, system->width, system->matrix);
+	if (done < system->unknowns)
+		return pole_of(system, done);
 	const size_t coordinates[2] = { for_y ? 1 : 0, 2 };
-	for (size_t c = 0; status == BATTEN_OK && c < (for_y ? 1 : 2); c++)
+	for (size_t c = 0; c < (for_y ? 1 : 2); c++)
 		for (size_t round = 0; round < REFINEMENTS; round++)
 			if (!refine(system, coordinates[c]))
 				break;
-	return status;
+	return SIZE_MAX;
 }
 
 batten_status fit_net_solve(const struct fit_points *points, const struct fit_edges *edges,
-                            double stiffness, struct batten_surface *surface)
+                            double stiffness, struct batten_surface *surface, bool fill,
+                            size_t *free_pole)
 {
 	const size_t poles = surface->count_u * surface->count_v;
 	/* Poles of one point or of one second difference are at most this far apart. */
@@ -216,18 +231,21 @@ batten_status fit_net_solve(const struct fit_points *points, const struct fit_ed
 	};
 	system.unknown = batten_allocate(points->context, poles, sizeof *system.unknown);
 	system.vector = batten_allocate(points->context, poles, sizeof *system.vector);
+	system.places = batten_allocate(points->context, poles, sizeof *system.places);
 	size_t places = 0;
 	if (__builtin_mul_overflow(poles, system.width + 1, &places))
 		places = SIZE_MAX;
 	system.matrix = batten_allocate(points->context, places, sizeof *system.matrix);
-	batten_status status = BATTEN_MEMORY;
+	const bool room = system.unknown && system.vector && system.places && system.matrix;
 	memset(surface->poles, 0, 3 * poles * sizeof *surface->poles);
-	if (system.unknown && system.vector && system.matrix)
-		status = solve(&system, edges, false);
-	if (status == BATTEN_OK)
-		status = solve(&system, edges, true);
+	if (room) {
+		*free_pole = solve(&system, edges, false, fill);
+		if (*free_pole == SIZE_MAX)
+			*free_pole = solve(&system, edges, true, fill);
+	}
 	batten_release(points->context, system.unknown);
 	batten_release(points->context, system.vector);
+	batten_release(points->context, system.places);
 	batten_release(points->context, system.matrix);
-	return status;
+	return room ? BATTEN_OK : BATTEN_MEMORY;
 }

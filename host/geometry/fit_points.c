@@ -12,6 +12,9 @@ static const double least_part = 0.5;
 void fit_points_destroy(struct fit_points *points)
 {
 	batten_release(points->context, points->point);
+	batten_release(points->context, points->mark);
+	batten_release(points->context, points->crease[0]);
+	batten_release(points->context, points->crease[1]);
 	memset(points, 0, sizeof *points);
 }
 
@@ -25,20 +28,27 @@ static double part_of(double value, double first, double last)
 	return part < 0.0 ? 0.0 : part > 1.0 ? 1.0 : part;
 }
 
-static void add_point(struct fit_points *points, const struct fit_outline *outline,
-                      const double place[3], size_t station, size_t waterline, bool given)
+static struct fit_point point_at(const struct fit_outline *outline, const double place[3])
 {
+	struct fit_point point = { .station = SIZE_MAX, .waterline = SIZE_MAX };
 	const double x = place[0];
 	const double aft = fit_line_value(&outline->stern, place[2]);
 	const double forward = fit_line_value(&outline->stem, place[2]);
 	const double low = fit_line_value(&outline->low, x);
 	const double high = fit_line_value(&outline->high, x);
+	memcpy(point.place, place, sizeof point.place);
+	point.u = part_of(x, aft, forward);
+	point.v = part_of(place[2], low, high);
+	point.on_u = point.u == 0.0 || point.u == 1.0;
+	point.on_v = point.v == 0.0 || point.v == 1.0;
+	return point;
+}
+
+static void add_point(struct fit_points *points, const struct fit_outline *outline,
+                      const double place[3], size_t station, size_t waterline, bool given)
+{
 	struct fit_point *point = &points->point[points->count++];
-	memcpy(point->place, place, sizeof point->place);
-	point->u = part_of(x, aft, forward);
-	point->v = part_of(place[2], low, high);
-	point->on_u = point->u == 0.0 || point->u == 1.0;
-	point->on_v = point->v == 0.0 || point->v == 1.0;
+	*point = point_at(outline, place);
 	point->station = station;
 	point->waterline = waterline;
 	point->given = given;
@@ -73,6 +83,9 @@ static void add_all(const batten_hull *hull, const struct fit_outline *outline,
 		add_point(points, outline,
 		          (const double[]){ outline->closed_x[i], 0.0, outline->closed_z[i] },
 		          hull_station_at(hull, outline->closed_x[i]), SIZE_MAX, false);
+	for (size_t i = 0; i < hull->knuckle_count; i++)
+		points->mark[i] = point_at(
+			outline, (const double[]){ hull->knuckles[i].x_m, 0.0, hull->knuckles[i].z_m });
 }
 
 batten_status fit_points_create(const batten_hull *hull, const struct fit_outline *outline,
@@ -83,12 +96,19 @@ batten_status fit_points_create(const batten_hull *hull, const struct fit_outlin
 	const size_t most = hull->station_count * hull->waterline_count + hull->end_count +
 	                    hull->profile_count + outline->closed_count;
 	out->point = batten_allocate(hull->context, most, sizeof *out->point);
-	if (!out->point)
+	out->mark = batten_allocate(hull->context, hull->knuckle_count, sizeof *out->mark);
+	for (size_t d = 0; d < 2; d++)
+		out->crease[d] = batten_allocate(hull->context, hull->knuckle_count, sizeof(double));
+	if (!out->point || !out->mark || !out->crease[0] || !out->crease[1]) {
+		fit_points_destroy(out);
 		return BATTEN_MEMORY;
+	}
 	add_all(hull, outline, out);
 	batten_status status = BATTEN_OK;
 	if (girth == FIT_GIRTH_CHORD)
-		status = fit_girth_by_chords(hull->station_count, out, outline, hull->x_m);
+		status = fit_girth_by_chords(hull, out, outline);
+	if (status == BATTEN_OK)
+		status = fit_knuckles_straighten(hull, out);
 	if (status != BATTEN_OK)
 		fit_points_destroy(out);
 	return status;
@@ -186,6 +206,9 @@ static batten_status choose_knots(const struct fit_points *points, bool waterlin
 		                           "found %zu points on the longest %s, expected at least %zu: one "
 		                           "for each pole",
 		                           count, waterline ? "waterline" : "section", poles)
+		         : points->crease_count[!waterline] > 0
+		             ? fit_knuckles_knots(context, waterline ? "waterline" : "section", points,
+		                                  !waterline, order, poles, count, parameter, knots)
 		             : bspline_knots_spread(context, order, poles, count, parameter, knots);
 	}
 	batten_release(context, start);

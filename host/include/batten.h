@@ -636,9 +636,12 @@ typedef struct batten_fit_deviation {
 /* Fits a surface to the points of a hull by least squares; a net of as many poles as points, on a
  * full table, goes through them. The edges of the surface follow keel, stem, stern and the highest
  * points of the sections; where a section does not reach the keel, its keel point is put on the
- * line through the profile points beside it. deviation may be NULL. Errors: USAGE (orders, counts, a
- * rounded edge that is not in the centreplane), INPUT (fewer points than poles, or too few along
- * one direction), MEMORY. */
+ * line through the profile points beside it. Knuckles of the sections join to lines along the hull,
+ * those of the waterlines to lines up the girth; each becomes a knot repeated order - 1 times, where
+ * the surface keeps its crease (Letcher 4.4). deviation may be NULL. Errors: USAGE (orders, counts, a
+ * rounded edge that is not in the centreplane), INPUT (fewer points than poles, too few along one
+ * direction or where a pole is; knuckles that do not join to lines, or more lines than the poles can
+ * hold), MEMORY. */
 BATTEN_API batten_status batten_hull_fit(batten_context *context, const batten_hull *hull,
                                          const batten_fit_options *options, batten_surface **out,
                                          batten_fit_deviation *deviation);
