@@ -7,6 +7,8 @@
 const bench_entry bench_entries[] = {
 	{ "search.multilevel", "whole pattern searches, OpenCL against the plain C path",
 	  bench_search_multilevel },
+	{ "search.net", "searches over control nets, OpenCL against the plain C path",
+	  bench_search_net },
 	{ "surface.curvature_grid",
 	  "K and H of B-spline surfaces on a grid, OpenCL against the plain C path",
 	  bench_surface_curvature_grid },

@@ -13,10 +13,6 @@
 #include "shared/multilevel.h"
 #include "shared/search_layout.h"
 
-/* Unrolled loops cost PoCL half a minute of compiling and gain nothing: the lanes are unrolled
- * already. */
-#define ROLLED _Pragma("unroll 1")
-
 typedef struct search_state {
 	int stations, waterlines, stride, nodes;
 	global const scalar *along_x, *along_z;

@@ -7,7 +7,13 @@
  * shape does not change a bit of the result.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for nets whose state does
- * not fit local memory), NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V. */
+ * not fit local memory), NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V; bending of a bicubic net where they are
+ * not. */
+#if !defined(NET_FAIRNESS)
+#define NET_FAIRNESS 0
+#define NET_ORDER_U 4
+#define NET_ORDER_V 4
+#endif
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/net_energy.h"

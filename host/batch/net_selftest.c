@@ -8,7 +8,7 @@
 
 enum {
 	POINTS = 2,
-	SPANS = 3,
+	SPANS = 5,
 	SAMPLES = SPANS * POINTS,
 	POLES_MOST = NET_ORDER_MOST + SPANS - 1, /* along one direction */
 	NET_MOST = POLES_MOST * POLES_MOST,

@@ -70,6 +70,7 @@ SHARED_FUNCTION net_jet net_jet_of(const search_state *s, const net_pole *ring, 
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	net_jet j = { zero, zero, zero, zero, zero, zero, zero, zero, zero, zero };
+	(void)s; /* OpenCL knows the order without it */
 	ROLLED
 	for (int b = 0; b < NET_ORDER_U; b++) {
 		const net_pole *pole = ring + (first + b) % NET_ORDER_U;

@@ -145,7 +145,7 @@ static void test_chosen_nets(void **state)
 		const batten_fairing_net net = batten_fairing_describe_net(fairing);
 		assert_below(net.deviation.rms_pct, bounds[b].rms_pct, bounds[b].name);
 		assert_below(net.deviation.max_pct, bounds[b].max_pct, bounds[b].name);
-		assert_true(net.pole_count <= 0.7 * (double)net.deviation.point_count);
+		assert_true((double)net.pole_count <= 0.7 * (double)net.deviation.point_count);
 		check_rules(hull, fairing);
 		batten_fairing_destroy(fairing);
 		batten_hull_destroy(hull);

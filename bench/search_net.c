@@ -1,0 +1,157 @@
+/* search.net: a batch of noisy Wigley hulls as bicubic nets of 16 x 10 poles, whole searches for the y
+ * of the poles, on the device against the plain C path. L 16, B 1.6, D 1 m, noise of the poles 0.01 m,
+ * 4 x 4 Gauss points a span, poles off the centreplane free in 0 .. B/2. */
+#include "bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 16, ROWS = 10, POLES = COLUMNS * ROWS };
+
+typedef struct workload {
+	size_t count;
+	double lower[POLES], upper[POLES];
+	batten_surface **surfaces;
+	double *y, *known_y;
+	batten_net_problem *problems;
+	batten_search_result *results, *known;
+} workload;
+
+static void workload_release(workload *w)
+{
+	for (size_t h = 0; w->surfaces && h < w->count; h++)
+		batten_surface_destroy(w->surfaces[h]);
+	free(w->surfaces);
+	free(w->y);
+	free(w->known_y);
+	free(w->problems);
+	free(w->results);
+	free(w->known);
+}
+
+/* The mean of a pole's inner knots, uniform over 0 .. 1 and clamped. */
+static double place_of(int pole, int poles)
+{
+	double sum = 0.0;
+	for (int d = 1; d <= 3; d++) {
+		const double knot = (double)(pole + d - 3) / (double)(poles - 3);
+		sum += knot < 0.0 ? 0.0 : knot > 1.0 ? 1.0 : knot;
+	}
+	return sum / 3.0;
+}
+
+static batten_status make_surface(const bench_settings *settings, uint32_t state, double *upper,
+                                  batten_surface **out)
+{
+	double poles[3 * POLES];
+	for (int n = 0; n < POLES; n++) {
+		const double u = place_of(n % COLUMNS, COLUMNS);
+		const double v = place_of(n / COLUMNS, ROWS);
+		const double form = 0.8 * 4.0 * u * (1.0 - u) * v * (2.0 - v);
+		const bool inside = n % COLUMNS > 0 && n % COLUMNS < COLUMNS - 1 && n >= COLUMNS;
+		state = state * 1664525u + 1013904223u;
+		const double y = form + 0.02 * ((double)(state >> 8) / (1u << 24) - 0.5);
+		poles[3 * n] = 16.0 * u;
+		poles[3 * n + 1] = !inside || y < 0.0 ? 0.0 : y > 0.8 ? 0.8 : y;
+		poles[3 * n + 2] = v;
+		upper[n] = inside ? 0.8 : 0.0;
+	}
+	const batten_surface_net net = {
+		.order_u = 4, .order_v = 4, .count_u = COLUMNS, .count_v = ROWS, .poles_m = poles
+	};
+	return batten_surface_create(settings->context, &net, out);
+}
+
+static batten_status workload_create(const bench_settings *settings, size_t count, double w2,
+                                     workload *w)
+{
+	batten_status status = BATTEN_OK;
+	*w = (workload){ .count = count };
+	w->surfaces = calloc(count, sizeof(batten_surface *));
+	w->y = calloc(count * POLES, sizeof *w->y);
+	w->known_y = calloc(count * POLES, sizeof *w->known_y);
+	w->problems = calloc(count, sizeof *w->problems);
+	w->results = calloc(count, sizeof *w->results);
+	w->known = calloc(count, sizeof *w->known);
+	if (!w->surfaces || !w->y || !w->known_y || !w->problems || !w->results || !w->known)
+		return BATTEN_MEMORY;
+	for (size_t h = 0; h < count && status == BATTEN_OK; h++) {
+		status = make_surface(settings, 2654435761u * (uint32_t)(h + 1), w->upper, &w->surfaces[h]);
+		w->problems[h] = (batten_net_problem){ .start = w->surfaces[h],
+			                                   .lower_y_m = w->lower,
+			                                   .upper_y_m = w->upper,
+			                                   .w1 = 1.0,
+			                                   .w2 = w2,
+			                                   .half_beam_m = 0.8 };
+	}
+	return status;
+}
+
+/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
+static batten_status timed(const bench_settings *settings, const workload *w, int device,
+                           batten_precision precision, double *y, batten_search_result *results,
+                           batten_run *run, double *seconds)
+{
+	const bool wall = !bench_is_cpu(settings);
+	batten_net_options options;
+	batten_net_options_default(&options);
+	options.search.device = device;
+	options.search.precision = precision;
+	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
+	const batten_status status = batten_net_search_batch(settings->context, w->count, w->problems,
+	                                                     &options, y, results, run);
+	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
+	return status;
+}
+
+static batten_status run_case(const bench_settings *settings, double w2, batten_precision precision)
+{
+	workload w;
+	bench_pairs pairs;
+	batten_run run = { 0 };
+	bench_row row = { .precision = precision, .unit = "us per hull", .reference = "reference" };
+	double seconds = 0.0;
+	batten_status status = workload_create(settings, settings->full ? 32 : 16, w2, &w);
+	/* Warm-up, and the proof that both do the same. */
+	if (status == BATTEN_OK)
+		status = timed(settings, &w, settings->device, precision, w.y, w.results, &run, &seconds);
+	if (status == BATTEN_OK)
+		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
+		               &seconds);
+	if (status == BATTEN_OK && run.strict &&
+	    memcmp(w.y, w.known_y, w.count * POLES * sizeof *w.y) != 0)
+		status = BATTEN_INTERNAL;
+	(void)snprintf(row.name, sizeof row.name, "search.net");
+	(void)snprintf(row.case_name, sizeof row.case_name, "16x10 w %g batch %zu", w2, w.count);
+	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		status = timed(settings, &w, settings->device, precision, w.y, w.results, NULL,
+		               &pairs.value[p]);
+		if (status == BATTEN_OK)
+			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known,
+			               NULL, &pairs.reference[p]);
+	}
+	if (status == BATTEN_OK) {
+		bench_pairs_judge(&pairs, 1e6 / (double)w.count, &row);
+		settings->emit(&row, settings->user);
+	}
+	workload_release(&w);
+	return status;
+}
+
+batten_status bench_search_net(const bench_settings *settings)
+{
+	static const double quick[] = { 1e3 };
+	static const double full[] = { 10.0, 1e3, 1e5 };
+	const double *weights = settings->full ? full : quick;
+	const size_t count = settings->full ? 3 : 1;
+	for (int precision = 0; precision < 2; precision++)
+		for (size_t w = 0; w < count; w++) {
+			const batten_status status = run_case(settings, weights[w],
+			                                      precision ? BATTEN_F32 : BATTEN_F64);
+			if (status != BATTEN_OK)
+				return status;
+		}
+	return BATTEN_OK;
+}
