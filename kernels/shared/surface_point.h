@@ -96,38 +96,57 @@ SHARED_FUNCTION surface_jet surface_divide(surface_jet h, surface_weight w)
 	return j;
 }
 
-/* least_area: the smallest |by_v x by_u| that is not rounding, squared. */
-SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
+/* Both fundamental forms, the second one times the area element, and what of the area element takes a
+ * root and a division. inverse2: its square inverted, 0 where there is no normal. */
+typedef struct surface_forms {
+	real first_uu, first_uv, first_vv, second_uu, second_uv, second_vv, area, inverse2;
+} surface_forms;
+
+/* normal: by_v x by_u. least_area: the smallest length of it that is not rounding, squared. */
+SHARED_FUNCTION surface_forms surface_forms_of(surface_jet j, surface_triple normal,
+                                               real least_area)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	const real two = SPREAD(LITERAL(2.0));
 	const real angle = SPREAD(SURFACE_ANGLE * SURFACE_ANGLE);
-	surface_shape s;
-	s.first_uu = triple_inner(j.u, j.u);
-	s.first_uv = triple_inner(j.u, j.v);
-	s.first_vv = triple_inner(j.v, j.v);
-	const surface_triple normal = triple_outer(j.v, j.u);
+	surface_forms f;
+	f.first_uu = triple_inner(j.u, j.u);
+	f.first_uv = triple_inner(j.u, j.v);
+	f.first_vv = triple_inner(j.v, j.v);
+	f.second_uu = triple_inner(normal, j.uu);
+	f.second_uv = triple_inner(normal, j.uv);
+	f.second_vv = triple_inner(normal, j.vv);
 	const real square = triple_inner(normal, normal);
 	/* Comparisons that NaN fails: derivatives too large for the precision give no normal. */
-	s.regular = (square > least_area) & (square > angle * (s.first_uu * s.first_vv));
+	const mask regular = (square > least_area) &
+	                     (square > angle * (f.first_uu * f.first_vv));
 	/* Root and division side by side: neither waits for the other. */
-	const real safe = CHOOSE(s.regular, square, one);
-	const real area = SQUARE_ROOT(safe);
-	const real inverse2 = one / safe;
-	const real inverse = area * inverse2;
-	const real e = triple_inner(normal, j.uu) * inverse;
-	const real f = triple_inner(normal, j.uv) * inverse;
-	const real g = triple_inner(normal, j.vv) * inverse;
-	const real gauss = FUSED(e, g, -(f * f)) * inverse2;
+	const real safe = CHOOSE(regular, square, one);
+	f.area = SQUARE_ROOT(safe);
+	f.inverse2 = CHOOSE(regular, one / safe, SPREAD(LITERAL(0.0)));
+	return f;
+}
+
+SHARED_FUNCTION surface_shape surface_shape_from(surface_forms form, surface_triple normal)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real two = SPREAD(LITERAL(2.0));
+	const real inverse = form.area * form.inverse2;
+	surface_shape s;
+	s.first_uu = form.first_uu;
+	s.first_uv = form.first_uv;
+	s.first_vv = form.first_vv;
+	const real e = form.second_uu * inverse;
+	const real f = form.second_uv * inverse;
+	const real g = form.second_vv * inverse;
+	const real gauss = FUSED(e, g, -(f * f)) * form.inverse2;
 	const real mean = FUSED(e, s.first_vv, FUSED(g, s.first_uu, -((two * f) * s.first_uv))) *
-	                  (SPREAD(LITERAL(0.5)) * inverse2);
+	                  (SPREAD(LITERAL(0.5)) * form.inverse2);
 	const real bending = FUSED(mean * SPREAD(LITERAL(4.0)), mean, -(two * gauss));
-	s.regular = s.regular & (bending - bending == zero);
+	s.regular = (form.inverse2 > zero) & (bending - bending == zero);
 	s.normal.x = CHOOSE(s.regular, normal.x * inverse, zero);
 	s.normal.y = CHOOSE(s.regular, normal.y * inverse, zero);
 	s.normal.z = CHOOSE(s.regular, normal.z * inverse, zero);
-	s.area = CHOOSE(s.regular, area, zero);
+	s.area = CHOOSE(s.regular, form.area, zero);
 	s.second_uu = CHOOSE(s.regular, e, zero);
 	s.second_uv = CHOOSE(s.regular, f, zero);
 	s.second_vv = CHOOSE(s.regular, g, zero);
@@ -135,6 +154,12 @@ SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
 	s.mean = CHOOSE(s.regular, mean, zero);
 	s.bending = CHOOSE(s.regular, bending, zero);
 	return s;
+}
+
+SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
+{
+	const surface_triple normal = triple_outer(j.v, j.u);
+	return surface_shape_from(surface_forms_of(j, normal, least_area), normal);
 }
 
 /* Half the difference of the principal curvatures. */
