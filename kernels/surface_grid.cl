@@ -154,11 +154,13 @@ typedef BATTEN_PASTE(NUMBER_NAME, BATTEN_LANES) numbers;
 	       a.sf, b.sf)
 #endif
 
-/* Rows become columns. To take turns moves the first bit of a number's place (row, lane) to its end;
+/* Rows become columns: to take turns moves the first bit of a number's place (row, lane) to its end;
  * done as often as a row has bits, rows and lanes have changed places. */
+#if BATTEN_LANES == 1
+#define turn(square)
+#else
 static inline void turn(real square[BATTEN_LANES])
 {
-#if BATTEN_LANES > 1
 	UNROLLED
 	for (int done = 1; done < BATTEN_LANES; done *= 2) {
 		real next[BATTEN_LANES];
@@ -173,8 +175,8 @@ static inline void turn(real square[BATTEN_LANES])
 		for (int i = 0; i < BATTEN_LANES; i++)
 			square[i] = next[i];
 	}
-#endif
 }
+#endif
 
 /* Where the values of a run go: those of surface s, value v, sample n lie at out + (s * VALUES + v) *
  * plane + n. */
@@ -213,7 +215,7 @@ static inline void give_back(const real *tile, int count, target to)
 }
 
 /* One value of sample i of a run. */
-#define PUT(value, a) tile[(value) * BATTEN_LANES + i] = (a)
+#define PUT(value, a) tile[(value)*BATTEN_LANES + i] = (a)
 
 static inline void put_triple(real *tile, int i, int value, surface_triple t)
 {

@@ -117,8 +117,7 @@ SHARED_FUNCTION surface_forms surface_forms_of(surface_jet j, surface_triple nor
 	f.second_vv = triple_inner(normal, j.vv);
 	const real square = triple_inner(normal, normal);
 	/* Comparisons that NaN fails: derivatives too large for the precision give no normal. */
-	const mask regular = (square > least_area) &
-	                     (square > angle * (f.first_uu * f.first_vv));
+	const mask regular = (square > least_area) & (square > angle * (f.first_uu * f.first_vv));
 	/* Root and division side by side: neither waits for the other. */
 	const real safe = CHOOSE(regular, square, one);
 	f.area = SQUARE_ROOT(safe);
