@@ -37,7 +37,9 @@ batten_status device_buffer_create(device_session *session, size_t size, const v
 {
 	device_buffer *buffer = NULL;
 	batten_status status = create(session, CL_MEM_READ_WRITE, size, NULL, &buffer);
-	if (status == BATTEN_OK && initial)
+	if (status != BATTEN_OK)
+		return status;
+	if (initial && buffer)
 		status = device_buffer_write(buffer, size, initial);
 	if (status == BATTEN_OK)
 		*out = buffer;
