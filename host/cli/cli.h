@@ -60,6 +60,7 @@ void cli_clean(char *line);
 
 batten_status cli_fair(int argc, char **argv);
 batten_status cli_measure(int argc, char **argv);
+batten_status cli_curve(int argc, char **argv);
 batten_status cli_surface(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);

@@ -13,6 +13,7 @@ typedef struct subcommand {
 static const subcommand subcommands[] = {
 	{ "fair", cli_fair, "fair a hull: faired offsets, report, pictures" },
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
+	{ "curve", cli_curve, "represent one line and measure how fair it is" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
 	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
@@ -70,7 +71,7 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, surface, devices, selftest, "
+		"batten: found '%s', a command was expected: fair, measure, curve, surface, devices, selftest, "
 		"bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);

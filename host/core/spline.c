@@ -58,40 +58,64 @@ static void solve_rows(struct row *rows, size_t first, size_t last, double *seco
 		second[i] = (rows[i].right - rows[i].above * second[i + 1]) / rows[i].diagonal;
 }
 
-static void fill_rows(const struct spline *spline, const double slopes[2], struct row *rows)
+/* The row of an end point whose second derivative stands alone or with its neighbour's; given for
+ * not-a-knot it is that of two points only: their second derivatives are equal. */
+static struct row end_row(const struct spline *spline, struct spline_condition condition,
+                          bool first)
+{
+	size_t interval = first ? 0 : spline->count - 2;
+	double step = width(spline, interval);
+	double chord = chord_slope(spline, interval);
+	struct row row = { 0, 1, 0, 0 };
+	double beside = 0;
+	if (condition.end == SPLINE_CLAMPED) {
+		row.diagonal = 2 * step;
+		beside = step;
+		row.right = first ? 6 * (chord - condition.value) : 6 * (condition.value - chord);
+	} else if (condition.end == SPLINE_BENT) {
+		row.right = condition.value;
+	} else if (condition.end == SPLINE_NOT_A_KNOT) {
+		beside = -1;
+	}
+	*(first ? &row.above : &row.below) = beside;
+	return row;
+}
+
+/* Solves for the second derivatives; a not-a-knot end is found from its neighbours afterwards. */
+static void solve_ends(struct spline *spline, const struct spline_condition conditions[2],
+                       struct row *rows)
 {
 	size_t last = spline->count - 1;
+	bool inside = last > 1;
+	bool out_first = inside && conditions[0].end == SPLINE_NOT_A_KNOT;
+	bool out_last = inside && conditions[1].end == SPLINE_NOT_A_KNOT;
 	for (size_t i = 1; i < last; i++)
 		rows[i] = inner_row(spline, i);
-	if (spline->ends == SPLINE_CLAMPED) {
-		double step = width(spline, 0);
-		rows[0] = (struct row){ 0, 2 * step, step, 6 * (chord_slope(spline, 0) - slopes[0]) };
-		step = width(spline, last - 1);
-		rows[last] = (struct row){ step, 2 * step, 0,
-			                       6 * (slopes[1] - chord_slope(spline, last - 1)) };
-	} else if (spline->ends == SPLINE_NOT_A_KNOT && spline->count >= 4) {
+	rows[0] = end_row(spline, conditions[0], true);
+	rows[last] = end_row(spline, conditions[1], false);
+	if (out_first)
 		rows[1] = not_a_knot_row(spline, true);
+	if (out_last)
 		rows[last - 1] = not_a_knot_row(spline, false);
-	}
-}
-
-static void not_a_knot_ends(const struct spline *spline)
-{
-	size_t last = spline->count - 1;
 	double *m = spline->second;
-	m[0] = m[1] - (m[2] - m[1]) * width(spline, 0) / width(spline, 1);
-	m[last] = m[last - 1] +
-	          (m[last - 1] - m[last - 2]) * width(spline, last - 1) / width(spline, last - 2);
+	solve_rows(rows, out_first ? 1 : 0, out_last ? last - 1 : last, m);
+	if (out_first)
+		m[0] = m[1] - (m[2] - m[1]) * width(spline, 0) / width(spline, 1);
+	if (out_last)
+		m[last] = m[last - 1] +
+		          (m[last - 1] - m[last - 2]) * width(spline, last - 1) / width(spline, last - 2);
 }
 
-static batten_status find_second_derivatives(struct spline *spline, const double slopes[2])
+static batten_status find_second_derivatives(struct spline *spline,
+                                             const struct spline_condition conditions[2])
 {
 	size_t last = spline->count - 1;
-	if (spline->ends != SPLINE_CLAMPED && last == 1)
-		return BATTEN_OK; /* the straight line: all zero as allocated */
-	if (spline->ends == SPLINE_NOT_A_KNOT && last == 2) {
-		double bend = 2 * (chord_slope(spline, 1) - chord_slope(spline, 0)) /
-		              (spline->x[2] - spline->x[0]);
+	if (conditions[0].end == SPLINE_NOT_A_KNOT && conditions[1].end == SPLINE_NOT_A_KNOT &&
+	    last <= 2) {
+		/* The straight line or the parabola. */
+		double bend = last == 1 ? 0
+		                        : 2 * (chord_slope(spline, 1) - chord_slope(spline, 0)) /
+		                              (spline->x[2] - spline->x[0]);
 		for (size_t i = 0; i <= last; i++)
 			spline->second[i] = bend;
 		return BATTEN_OK;
@@ -99,13 +123,7 @@ static batten_status find_second_derivatives(struct spline *spline, const double
 	struct row *rows = batten_allocate(spline->context, spline->count, sizeof *rows);
 	if (!rows)
 		return BATTEN_MEMORY;
-	fill_rows(spline, slopes, rows);
-	if (spline->ends == SPLINE_CLAMPED)
-		solve_rows(rows, 0, last, spline->second);
-	else
-		solve_rows(rows, 1, last - 1, spline->second);
-	if (spline->ends == SPLINE_NOT_A_KNOT)
-		not_a_knot_ends(spline);
+	solve_ends(spline, conditions, rows);
 	batten_release(spline->context, rows);
 	return BATTEN_OK;
 }
@@ -129,14 +147,19 @@ static batten_status check_points(batten_context *context, size_t count, const d
 	return BATTEN_OK;
 }
 
-static batten_status create(batten_context *context, size_t count, const double *x, const double *y,
-                            enum spline_ends ends, const double slopes[2], struct spline *out)
+batten_status spline_create_mixed(batten_context *context, size_t count, const double *x,
+                                  const double *y, struct spline_condition first,
+                                  struct spline_condition last, struct spline *out)
 {
+	const struct spline_condition conditions[2] = { first, last };
 	*out = (struct spline){ 0 };
 	batten_status status = check_points(context, count, x, y);
 	if (status != BATTEN_OK)
 		return status;
-	struct spline spline = { .context = context, .ends = ends, .count = count };
+	for (int i = 0; i < 2; i++)
+		if (!isfinite(conditions[i].value))
+			return batten_fail(context, BATTEN_USAGE, "an end condition of a spline is not finite");
+	struct spline spline = { .context = context, .ends = { first.end, last.end }, .count = count };
 	spline.x = batten_allocate(context, count, 3 * sizeof *spline.x);
 	if (!spline.x)
 		return BATTEN_MEMORY;
@@ -144,7 +167,7 @@ static batten_status create(batten_context *context, size_t count, const double 
 	spline.second = spline.y + count;
 	memcpy(spline.x, x, count * sizeof *x);
 	memcpy(spline.y, y, count * sizeof *y);
-	status = find_second_derivatives(&spline, slopes);
+	status = find_second_derivatives(&spline, conditions);
 	if (status != BATTEN_OK) {
 		batten_release(context, spline.x);
 		return status;
@@ -154,24 +177,14 @@ static batten_status create(batten_context *context, size_t count, const double 
 }
 
 batten_status spline_create(batten_context *context, size_t count, const double *x, const double *y,
-                            enum spline_ends ends, struct spline *out)
+                            enum spline_end ends, struct spline *out)
 {
+	const struct spline_condition both = { ends, 0 };
 	if (ends != SPLINE_NATURAL && ends != SPLINE_NOT_A_KNOT) {
 		*out = (struct spline){ 0 };
-		return batten_fail(context, BATTEN_USAGE, "a clamped spline needs its end slopes");
+		return batten_fail(context, BATTEN_USAGE, "the ends of a spline need their values");
 	}
-	return create(context, count, x, y, ends, NULL, out);
-}
-
-batten_status spline_create_clamped(batten_context *context, size_t count, const double *x,
-                                    const double *y, double first_slope, double last_slope,
-                                    struct spline *out)
-{
-	if (!isfinite(first_slope) || !isfinite(last_slope)) {
-		*out = (struct spline){ 0 };
-		return batten_fail(context, BATTEN_USAGE, "an end slope of a spline is not finite");
-	}
-	return create(context, count, x, y, SPLINE_CLAMPED, (double[]){ first_slope, last_slope }, out);
+	return spline_create_mixed(context, count, x, y, both, both, out);
 }
 
 void spline_destroy(struct spline *spline)
@@ -222,11 +235,9 @@ static struct piece piece_at(const struct spline *spline, double x)
 {
 	size_t last = spline->count - 1;
 	struct piece piece = piece_of(spline, interval_at(spline, x));
-	if (spline->ends != SPLINE_NATURAL)
-		return piece;
-	if (x < spline->x[0]) {
+	if (x < spline->x[0] && spline->ends[0] == SPLINE_NATURAL) {
 		piece.c = piece.d = 0;
-	} else if (x > spline->x[last]) {
+	} else if (x > spline->x[last] && spline->ends[1] == SPLINE_NATURAL) {
 		double step = width(spline, last - 1);
 		double slope = piece.b + step * (2 * piece.c + step * 3 * piece.d);
 		piece = (struct piece){ spline->x[last], spline->y[last], slope, 0, 0 };
@@ -264,83 +275,11 @@ double spline_second(const struct spline *spline, double x)
 	return 2 * piece.c + 6 * piece.d * (x - piece.origin);
 }
 
-/* ------------------------------------------------------------------------------------------------
- * Integrals: five Gauss points an interval are exact to degree 9, which the cube of a cubic has
- * --------------------------------------------------------------------------------------------- */
-
-enum { GAUSS_POINTS = 5 };
-
-static const double gauss_place[GAUSS_POINTS] = { -0.906179845938663992797626878299,
-	                                              -0.538469310105683091036314420700, 0.0,
-	                                              0.538469310105683091036314420700,
-	                                              0.906179845938663992797626878299 };
-static const double gauss_weight[GAUSS_POINTS] = { 0.236926885056189087514264040720,
-	                                               0.478628670499366468041291514836,
-	                                               0.568888888888888888888888888889,
-	                                               0.478628670499366468041291514836,
-	                                               0.236926885056189087514264040720 };
-
-/* Integral of x^moment s^power over [a, b], which lies within one piece. */
-static double integrate_piece(const struct piece *piece, double a, double b, int moment, int power)
+void spline_derivatives(const struct spline *spline, double x, double out[SPLINE_DERIVATIVES])
 {
-	double middle = 0.5 * (a + b);
-	double half = 0.5 * (b - a);
-	double sum = 0;
-	for (int k = 0; k < GAUSS_POINTS; k++) {
-		double x = middle + half * gauss_place[k];
-		double value = piece_value(piece, x);
-		double term = value;
-		for (int i = 1; i < power; i++)
-			term *= value;
-		for (int i = 0; i < moment; i++)
-			term *= x;
-		sum += gauss_weight[k] * term;
-	}
-	return half * sum;
-}
-
-static double integrate(const struct spline *spline, double a, double b, int moment, int power)
-{
-	if (b < a)
-		return -integrate(spline, b, a, moment, power);
-	size_t last = spline->count - 1;
-	double sum = 0;
-	double from = a;
-	while (from < b) {
-		/* The next point of the spline beyond from, or b. */
-		double to = b;
-		if (from < spline->x[0])
-			to = fmin(b, spline->x[0]);
-		else if (from < spline->x[last])
-			to = fmin(b, spline->x[interval_at(spline, from) + 1]);
-		struct piece piece = piece_at(spline, 0.5 * (from + to));
-		sum += integrate_piece(&piece, from, to, moment, power);
-		from = to;
-	}
-	return sum;
-}
-
-double spline_integral(const struct spline *spline, double a, double b)
-{
-	return integrate(spline, a, b, 0, 1);
-}
-
-double spline_moment(const struct spline *spline, double a, double b)
-{
-	return integrate(spline, a, b, 1, 1);
-}
-
-double spline_second_moment(const struct spline *spline, double a, double b)
-{
-	return integrate(spline, a, b, 2, 1);
-}
-
-double spline_square(const struct spline *spline, double a, double b)
-{
-	return integrate(spline, a, b, 0, 2);
-}
-
-double spline_cube(const struct spline *spline, double a, double b)
-{
-	return integrate(spline, a, b, 0, 3);
+	struct piece piece = piece_at(spline, x);
+	out[0] = spline_value(spline, x);
+	out[1] = spline_slope(spline, x);
+	out[2] = spline_second(spline, x);
+	out[3] = 6 * piece.d;
 }

@@ -1,6 +1,6 @@
+#include "geometry/gauss.h"
 #include "geometry/surface_batch.h"
 
-#include <math.h>
 #include <string.h>
 
 static batten_status allocate(batten_context *context, size_t order, size_t poles, size_t count,
@@ -58,41 +58,15 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
 	return status;
 }
 
-/* Nodes and weights of Gauss and Legendre over -1..1, by Newton's method on the Legendre polynomial;
- * its weights are 2 / ((1 - x^2) P'^2). */
-static void find_gauss_points(size_t count, double *nodes, double *weights)
-{
-	const double pi = acos(-1.0);
-	for (size_t n = 0; n < count; n++) {
-		double x = -cos(pi * ((double)n + 0.75) / ((double)count + 0.5));
-		double slope = 1.0;
-		for (int turn = 0; turn < 8; turn++) {
-			double before = 1.0;
-			double here = x;
-			for (size_t degree = 2; degree <= count; degree++) {
-				const double d = (double)degree;
-				const double next = ((2.0 * d - 1.0) * x * here - (d - 1.0) * before) / d;
-				before = here;
-				here = next;
-			}
-			slope = (double)count * (x * here - before) / (x * x - 1.0);
-			x -= here / slope;
-		}
-		nodes[n] = x;
-		weights[n] = 2.0 / ((1.0 - x * x) * slope * slope);
-	}
-}
-
 batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
                                     const double *knots, size_t points, surface_samples *out)
 {
-	enum { POINTS_MOST = 16 };
-	double nodes[POINTS_MOST];
-	double weights[POINTS_MOST];
-	if (points < 1 || points > POINTS_MOST)
+	double nodes[GAUSS_POINTS_MOST];
+	double weights[GAUSS_POINTS_MOST];
+	if (points < 1 || points > GAUSS_POINTS_MOST)
 		return batten_fail(context, BATTEN_USAGE, "%zu Gauss points a span: 1 to %d are expected",
-		                   points, POINTS_MOST);
-	find_gauss_points(points, nodes, weights);
+		                   points, GAUSS_POINTS_MOST);
+	gauss_points(points, nodes, weights);
 	size_t spans = 0;
 	for (size_t span = order - 1; span < poles; span++)
 		spans += knots[span] < knots[span + 1];

@@ -15,7 +15,7 @@ static const double gauss_weight[GAUSS_POINTS] = { 0.23692688505618908751, 0.478
 /* Equal intervals are equal to this part of themselves. */
 static const double spacing_tolerance = 1e-6;
 
-static batten_status add_piece(curve *line, size_t first, size_t last, enum spline_ends ends)
+static batten_status add_piece(curve *line, size_t first, size_t last, enum spline_end ends)
 {
 	if (last == first)
 		return BATTEN_OK;
@@ -27,7 +27,7 @@ static batten_status add_piece(curve *line, size_t first, size_t last, enum spli
 	return status;
 }
 
-static batten_status add_pieces(curve *line, const unsigned char *breaks, enum spline_ends ends)
+static batten_status add_pieces(curve *line, const unsigned char *breaks, enum spline_end ends)
 {
 	batten_status status = BATTEN_OK;
 	size_t first = 0;
@@ -45,7 +45,7 @@ static batten_status add_pieces(curve *line, const unsigned char *breaks, enum s
 }
 
 batten_status curve_create(batten_context *context, size_t count, const double *at,
-                           const double *value, const unsigned char *breaks, enum spline_ends ends,
+                           const double *value, const unsigned char *breaks, enum spline_end ends,
                            curve *out)
 {
 	curve line = { .context = context, .count = count };

@@ -24,7 +24,7 @@ typedef struct curve {
 /* Copies count >= 1 points; breaks (enum curve_break, [count]) may be NULL. Errors: MEMORY,
  * USAGE. */
 batten_status curve_create(batten_context *context, size_t count, const double *at,
-                           const double *value, const unsigned char *breaks, enum spline_ends ends,
+                           const double *value, const unsigned char *breaks, enum spline_end ends,
                            curve *out);
 void curve_destroy(curve *line);
 

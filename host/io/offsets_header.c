@@ -1,5 +1,6 @@
 /* The header of an offsets file: lines "# key: value" before the table. */
 #include "io/offsets_frame.h"
+#include "io/offsets_keys.h"
 #include "io/offsets_parts.h"
 
 #include <math.h>
@@ -27,92 +28,13 @@ static const char *const key_wanted[KEY_COUNT] = {
 	"1", "NAME", "m", "ap-fwd", "LENGTH", "LENGTH", "grid", NULL, NULL,
 };
 
-/* The value of each key as it stands in the file, line 0 where there is none yet. The unit may
- * follow the lengths, so nothing is converted before the last key. */
-struct entry {
-	struct offsets_cell cell;
-	size_t line;
-};
-
-static bool is_blank(char letter)
-{
-	return letter == ' ' || letter == '\t';
-}
-
-/* Takes "# key: value" apart. False for any other comment. Blanks and commas at the end, as
- * spreadsheets leave them, are no part of the value. */
-static bool split_key(const struct offsets_scan *scan, enum key *key, struct offsets_cell *value)
-{
-	const char *row = scan->row;
-	size_t end = scan->row_length;
-	size_t first = 1;
-	while (first < end && is_blank(row[first]))
-		first++;
-	const char *colon = first < end ? memchr(row + first, ':', end - first) : NULL;
-	if (!colon)
-		return false;
-	size_t length = (size_t)(colon - (row + first));
-	while (length > 0 && is_blank(row[first + length - 1]))
-		length--;
-	const struct offsets_cell name = { row + first, length, first + 1 };
-	int found = 0;
-	while (found < KEY_COUNT && !offsets_cell_is(&name, key_names[found]))
-		found++;
-	if (found == KEY_COUNT)
-		return false;
-	first = (size_t)(colon - row) + 1;
-	while (first < end && is_blank(row[first]))
-		first++;
-	while (end > first && (is_blank(row[end - 1]) || row[end - 1] == ','))
-		end--;
-	*key = (enum key)found;
-	*value = (struct offsets_cell){ row + first, end - first, first + 1 };
-	return true;
-}
-
-/* Reads all comment lines up to the table; the scan then stands on the table's first row. */
-static batten_status collect_entries(struct offsets_scan *scan, struct entry entries[KEY_COUNT])
-{
-	while (offsets_next_line(scan)) {
-		if (!offsets_is_comment(scan)) {
-			if (offsets_is_blank(scan))
-				continue;
-			return BATTEN_OK;
-		}
-		enum key key = KEY_VERSION;
-		struct offsets_cell value;
-		if (!split_key(scan, &key, &value))
-			continue;
-		if (entries[key].line > 0)
-			return offsets_fail_at(scan, scan->line, 1,
-			                       "found the key '%s' again, expected it once (line %zu has it)",
-			                       key_names[key], entries[key].line);
-		entries[key] = (struct entry){ value, scan->line };
-	}
-	/* No table: an empty row stands for it. */
-	scan->line++;
-	scan->row = scan->text + scan->length;
-	scan->row_length = 0;
-	scan->place = 0;
-	return BATTEN_OK;
-}
-
 batten_status offsets_refuse_late_keys(const struct offsets_scan *table)
 {
-	struct offsets_scan scan = *table;
-	while (offsets_next_line(&scan)) {
-		enum key key = KEY_VERSION;
-		struct offsets_cell value;
-		if (offsets_is_comment(&scan) && split_key(&scan, &key, &value))
-			return offsets_fail_at(&scan, scan.line, 1,
-			                       "found the key '%s' after the table began, expected it before",
-			                       key_names[key]);
-	}
-	return BATTEN_OK;
+	return offsets_keys_refuse_late(table, key_names, KEY_COUNT);
 }
 
 static batten_status check_required(const struct offsets_scan *scan,
-                                    const struct entry entries[KEY_COUNT])
+                                    const struct offsets_key entries[KEY_COUNT])
 {
 	for (int key = 0; key < KEY_COUNT; key++)
 		if (key_wanted[key] && entries[key].line == 0)
@@ -129,14 +51,14 @@ static batten_status check_required(const struct offsets_scan *scan,
  * --------------------------------------------------------------------------------------------- */
 
 /* The scan as it stood on the line of an entry, for messages. */
-static struct offsets_scan scan_at(const struct offsets_scan *scan, const struct entry *entry)
+static struct offsets_scan scan_at(const struct offsets_scan *scan, const struct offsets_key *entry)
 {
 	struct offsets_scan place = *scan;
 	place.line = entry->line;
 	return place;
 }
 
-static batten_status take_words(const struct offsets_scan *scan, const struct entry *entries,
+static batten_status take_words(const struct offsets_scan *scan, const struct offsets_key *entries,
                                 struct offsets_header *out)
 {
 	struct offsets_scan place = scan_at(scan, &entries[KEY_VERSION]);
@@ -162,7 +84,7 @@ static batten_status take_words(const struct offsets_scan *scan, const struct en
 	return BATTEN_OK;
 }
 
-static batten_status take_length(const struct offsets_scan *scan, const struct entry *entry,
+static batten_status take_length(const struct offsets_scan *scan, const struct offsets_key *entry,
                                  const struct offsets_header *header, double *out_m)
 {
 	const struct offsets_scan place = scan_at(scan, entry);
@@ -179,7 +101,7 @@ static batten_status take_length(const struct offsets_scan *scan, const struct e
 	return BATTEN_OK;
 }
 
-static batten_status take_texts(const struct offsets_scan *scan, const struct entry *entries,
+static batten_status take_texts(const struct offsets_scan *scan, const struct offsets_key *entries,
                                 struct offsets_header *out)
 {
 	struct offsets_scan place = scan_at(scan, &entries[KEY_NAME]);
@@ -207,9 +129,9 @@ batten_hull offsets_header_hull(const struct offsets_header *header)
 
 batten_status offsets_read_header(struct offsets_scan *scan, struct offsets_header *out)
 {
-	struct entry entries[KEY_COUNT] = { 0 };
+	struct offsets_key entries[KEY_COUNT] = { 0 };
 	struct offsets_header header = { .depth_m = NAN };
-	batten_status status = collect_entries(scan, entries);
+	batten_status status = offsets_keys_collect(scan, key_names, KEY_COUNT, entries);
 	if (status == BATTEN_OK)
 		status = check_required(scan, entries);
 	if (status == BATTEN_OK)

@@ -60,7 +60,8 @@ batten_status batten_hull_parse(batten_context *context, const char *name, const
 	*out = NULL;
 	struct offsets_scan scan = { 0 };
 	struct offsets_header header = { 0 };
-	batten_status status = offsets_scan_begin(context, name, text, length, &scan);
+	batten_status status = offsets_scan_begin(context, name, text, length,
+	                                          "'# batten-offsets: 1' and a table", &scan);
 	if (status == BATTEN_OK)
 		status = offsets_read_header(&scan, &header);
 	if (status == BATTEN_OK)

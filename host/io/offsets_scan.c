@@ -73,7 +73,7 @@ static batten_status check_text(const struct offsets_scan *scan)
 }
 
 batten_status offsets_scan_begin(batten_context *context, const char *name, const char *text,
-                                 size_t length, struct offsets_scan *out)
+                                 size_t length, const char *expected, struct offsets_scan *out)
 {
 	struct offsets_scan scan = { .context = context, .name = name, .text = text, .length = length };
 	if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
@@ -81,8 +81,7 @@ batten_status offsets_scan_begin(batten_context *context, const char *name, cons
 		scan.length -= 3;
 	}
 	if (scan.length == 0)
-		return offsets_fail_at(&scan, 1, 1,
-		                       "found an empty file, expected '# batten-offsets: 1' and a table");
+		return offsets_fail_at(&scan, 1, 1, "found an empty file, expected %s", expected);
 	*out = scan;
 	return check_text(&scan);
 }

@@ -22,9 +22,9 @@ struct offsets_cell {
 	size_t column; /* in bytes, from 1 */
 };
 
-/* Skips a byte order mark and refuses what is no text: INPUT. */
+/* Skips a byte order mark and refuses what is no text: INPUT. expected: what an empty file lacks. */
 batten_status offsets_scan_begin(batten_context *context, const char *name, const char *text,
-                                 size_t length, struct offsets_scan *out);
+                                 size_t length, const char *expected, struct offsets_scan *out);
 
 /* Goes to the next line, false at the end; the lines must have been checked by _begin. */
 bool offsets_next_line(struct offsets_scan *scan);

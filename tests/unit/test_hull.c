@@ -1,5 +1,6 @@
 /* Hulls from arrays, their lines, gaps, ends, profile points, knuckles and filled '?' nodes. */
 #include "hull/hull.h"
+#include "support/failing_heap.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -379,27 +380,9 @@ static void text_lengths(void **state)
  * Failing allocations
  * --------------------------------------------------------------------------------------------- */
 
-struct heap {
-	size_t live, count, fail_at; /* number of the allocation that fails, from 1; 0 for none */
-};
-
-static void *allocate(size_t size, void *user)
+static batten_status create_clone_and_fill(batten_context *context, void *user)
 {
-	struct heap *heap = user;
-	if (++heap->count == heap->fail_at)
-		return NULL;
-	heap->live++;
-	return malloc(size);
-}
-
-static void release(void *memory, void *user)
-{
-	((struct heap *)user)->live--;
-	free(memory);
-}
-
-static batten_status create_clone_and_fill(batten_context *context)
-{
+	(void)user;
 	uint8_t nodes[NODES];
 	memset(nodes, BATTEN_NODE_GIVEN, sizeof nodes);
 	nodes[7] = nodes[8] = BATTEN_NODE_UNKNOWN;
@@ -418,28 +401,10 @@ static batten_status create_clone_and_fill(batten_context *context)
 static void failing_allocations(void **state)
 {
 	(void)state;
-	struct heap heap = { 0 };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = allocate;
-	options.release = release;
-	options.allocate_user = &heap;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
-	size_t before = heap.live;
-	batten_status status = BATTEN_MEMORY;
-	size_t failed = 0;
-	for (; status != BATTEN_OK; failed++) {
-		heap.count = 0;
-		heap.fail_at = failed + 1;
-		status = create_clone_and_fill(context);
-		assert_true(status == BATTEN_OK || status == BATTEN_MEMORY);
-		assert_int_equal(heap.live, before);
-	}
-	assert_true(failed > 30);
-	heap.fail_at = 0;
-	batten_context_destroy(context);
-	assert_int_equal(heap.live, 0);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
+	assert_true(failing_heap_each(&heap, context, create_clone_and_fill, NULL) > 30);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-/* Cubic splines against closed forms (Letcher 3.5) and against sums over many small steps. */
+/* Cubic splines against closed forms (Letcher 3.5) and hand-computed cases of mixed ends. */
 #include "core/spline.h"
 
 #include <math.h>
@@ -8,6 +8,8 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+
+#define CLAMPED(slope) ((struct spline_condition){ SPLINE_CLAMPED, slope })
 
 enum { POINTS = 7 };
 static const double uneven[POINTS] = { -1, -0.7, 0.1, 0.4, 1.6, 1.7, 3 };
@@ -42,23 +44,6 @@ static double cubic_slope(double x)
 	return -3 + x + 0.75 * x * x;
 }
 
-/* Integral of the cubic, and of x and x^2 times it, from 0. */
-static double cubic_integral(double x)
-{
-	return 2 * x - 1.5 * x * x + x * x * x / 6 + x * x * x * x / 16;
-}
-
-static double cubic_moment(double x)
-{
-	return x * x - x * x * x + x * x * x * x / 8 + x * x * x * x * x / 20;
-}
-
-static double cubic_second_moment(double x)
-{
-	double x3 = x * x * x;
-	return 2 * x3 / 3 - 0.75 * x3 * x + 0.1 * x3 * x * x + x3 * x3 / 24;
-}
-
 static void natural_through_three_points(void **state)
 {
 	struct spline spline;
@@ -72,13 +57,10 @@ static void natural_through_three_points(void **state)
 	assert_close(spline_value(&spline, 1.5), 0.6875, 1e-15);
 	assert_close(spline_slope(&spline, 1), 0, 1e-15);
 	assert_close(spline_slope(&spline, 0), 1.5, 1e-15);
-	assert_close(spline_integral(&spline, 0, 2), 1.25, 1e-15);
 	/* Straight beyond its ends. */
 	assert_close(spline_value(&spline, -1), -1.5, 1e-15);
 	assert_close(spline_value(&spline, 4), -3, 1e-15);
 	assert_close(spline_second(&spline, 4), 0, 0);
-	assert_close(spline_integral(&spline, -2, 0), -3, 1e-15);
-	assert_close(spline_integral(&spline, 2, 4), -3, 1e-15);
 	spline_destroy(&spline);
 }
 
@@ -93,10 +75,6 @@ static void check_cubic(const struct spline *spline)
 		assert_close(spline_slope(spline, x), cubic_slope(x), 1e-13);
 		assert_close(spline_second(spline, x), 1 + 1.5 * x, 5e-13);
 	}
-	assert_close(spline_integral(spline, a, b), cubic_integral(b) - cubic_integral(a), 1e-13);
-	assert_close(spline_moment(spline, a, b), cubic_moment(b) - cubic_moment(a), 1e-13);
-	assert_close(spline_second_moment(spline, a, b),
-	             cubic_second_moment(b) - cubic_second_moment(a), 1e-13);
 }
 
 static void cubic_comes_back(void **state)
@@ -112,8 +90,9 @@ static void cubic_comes_back(void **state)
 		spline_destroy(&spline);
 	}
 	for (size_t count = 2; count <= POINTS; count++) {
-		assert_int_equal(spline_create_clamped(*state, count, uneven, y, cubic_slope(uneven[0]),
-		                                       cubic_slope(uneven[count - 1]), &spline),
+		assert_int_equal(spline_create_mixed(*state, count, uneven, y,
+		                                     CLAMPED(cubic_slope(uneven[0])),
+		                                     CLAMPED(cubic_slope(uneven[count - 1])), &spline),
 		                 BATTEN_OK);
 		check_cubic(&spline);
 		spline_destroy(&spline);
@@ -126,12 +105,9 @@ static void few_points(void **state)
 	const double y[] = { 3, 1, 7 };
 	struct spline spline;
 	for (int ends = SPLINE_NATURAL; ends <= SPLINE_NOT_A_KNOT; ends++) {
-		assert_int_equal(spline_create(*state, 2, x, y, (enum spline_ends)ends, &spline),
-		                 BATTEN_OK);
+		assert_int_equal(spline_create(*state, 2, x, y, (enum spline_end)ends, &spline), BATTEN_OK);
 		assert_close(spline_value(&spline, 1.25), 2.5, 1e-15);
 		assert_close(spline_value(&spline, 3), -1, 1e-15);
-		assert_close(spline_integral(&spline, 1, 2), 2, 1e-15);
-		assert_close(spline_cube(&spline, 1, 2), 10, 1e-14);
 		spline_destroy(&spline);
 	}
 	/* The parabola 3 - 2 (x-1) + 5/3 (x-1)(x-2). */
@@ -144,7 +120,7 @@ static void few_points(void **state)
 	spline_destroy(&spline);
 }
 
-/* A spline of no special kind: continuity, end conditions, and integrals against fine sums. */
+/* A spline of no special kind: continuity and end conditions. */
 static void check_general(const struct spline *spline, const double *y)
 {
 	for (size_t i = 0; i < POINTS; i++)
@@ -154,29 +130,6 @@ static void check_general(const struct spline *spline, const double *y)
 		assert_close(spline_slope(spline, before), spline_slope(spline, uneven[i]), 1e-12);
 		assert_close(spline_second(spline, before), spline_second(spline, uneven[i]), 1e-11);
 	}
-	enum { STEPS = 200000 };
-	double a = -0.85;
-	double b = 2.9;
-	double step = (b - a) / STEPS;
-	double sums[5] = { 0 };
-	for (int i = 0; i < STEPS; i++) {
-		double x = a + (i + 0.5) * step;
-		double value = spline_value(spline, x);
-		sums[0] += value * step;
-		sums[1] += x * value * step;
-		sums[2] += x * x * value * step;
-		sums[3] += value * value * step;
-		sums[4] += value * value * value * step;
-	}
-	assert_close(spline_integral(spline, a, b), sums[0], 1e-8);
-	assert_close(spline_moment(spline, a, b), sums[1], 1e-8);
-	assert_close(spline_second_moment(spline, a, b), sums[2], 1e-8);
-	assert_close(spline_square(spline, a, b), sums[3], 1e-8);
-	assert_close(spline_cube(spline, a, b), sums[4], 1e-8);
-	assert_true(spline_cube(spline, b, a) == -spline_cube(spline, a, b));
-	assert_true(spline_cube(spline, a, a) == 0);
-	assert_close(spline_cube(spline, a, 0.4) + spline_cube(spline, 0.4, b),
-	             spline_cube(spline, a, b), 1e-13);
 }
 
 static void general(void **state)
@@ -198,11 +151,85 @@ static void general(void **state)
 	assert_close((m[6] - m[5]) / (uneven[6] - uneven[5]), (m[5] - m[4]) / (uneven[5] - uneven[4]),
 	             1e-12);
 	spline_destroy(&spline);
-	assert_int_equal(spline_create_clamped(*state, POINTS, uneven, y, 2.5, -1.25, &spline),
-	                 BATTEN_OK);
+	assert_int_equal(
+		spline_create_mixed(*state, POINTS, uneven, y, CLAMPED(2.5), CLAMPED(-1.25), &spline),
+		BATTEN_OK);
 	check_general(&spline, y);
 	assert_close(spline_slope(&spline, uneven[0]), 2.5, 1e-14);
 	assert_close(spline_slope(&spline, uneven[POINTS - 1]), -1.25, 1e-14);
+	spline_destroy(&spline);
+}
+
+/* Second derivatives at the points (0,0), (1,1), (2,0) by hand: 2 M0 + M1 = 6 (1 - slope) where the
+ * first end is clamped, M0 + 4 M1 + M2 = -12, M1 = (M0 + M2) / 2 where an end is not-a-knot. */
+static void mixed_ends_by_hand(void **state)
+{
+	static const struct {
+		struct spline_condition first, last;
+		double second[3];
+	} cases[] = {
+		{ { SPLINE_CLAMPED, 0 }, { SPLINE_NATURAL, 0 }, { 36.0 / 7, -30.0 / 7, 0 } },
+		{ { SPLINE_NATURAL, 0 }, { SPLINE_CLAMPED, 0 }, { 0, -30.0 / 7, 36.0 / 7 } },
+		{ { SPLINE_BENT, 2 }, { SPLINE_NOT_A_KNOT, 0 }, { 2, -2, -6 } },
+		{ { SPLINE_NOT_A_KNOT, 0 }, { SPLINE_BENT, 2 }, { -6, -2, 2 } },
+		{ { SPLINE_NATURAL, 0 }, { SPLINE_NOT_A_KNOT, 0 }, { 0, -2, -4 } },
+		{ { SPLINE_CLAMPED, 0 }, { SPLINE_NOT_A_KNOT, 0 }, { 4, -2, -8 } },
+		{ { SPLINE_BENT, 4 }, { SPLINE_BENT, -4 }, { 4, -3, -4 } },
+		{ { SPLINE_CLAMPED, 1 }, { SPLINE_BENT, 0 }, { 12.0 / 7, -24.0 / 7, 0 } },
+	};
+	for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+		struct spline spline;
+		assert_int_equal(spline_create_mixed(*state, 3, (double[]){ 0, 1, 2 },
+		                                     (double[]){ 0, 1, 0 }, cases[i].first, cases[i].last,
+		                                     &spline),
+		                 BATTEN_OK);
+		for (size_t k = 0; k < 3; k++)
+			assert_close(spline.second[k], cases[i].second[k], 1e-14);
+		double found[SPLINE_DERIVATIVES];
+		spline_derivatives(&spline, 0.5, found);
+		assert_close(found[3], cases[i].second[1] - cases[i].second[0], 1e-14);
+		spline_destroy(&spline);
+	}
+}
+
+/* The chord (0,0), (2,2): where a not-a-knot end has no neighbour the spline is a parabola. */
+static void mixed_ends_of_two_points(void **state)
+{
+	static const struct {
+		struct spline_condition first, last;
+		double second[2];
+	} cases[] = {
+		{ { SPLINE_CLAMPED, 0 }, { SPLINE_NOT_A_KNOT, 0 }, { 1, 1 } },
+		{ { SPLINE_NOT_A_KNOT, 0 }, { SPLINE_CLAMPED, 2 }, { 1, 1 } },
+		{ { SPLINE_NATURAL, 0 }, { SPLINE_CLAMPED, 4 }, { 0, 4.5 } },
+		{ { SPLINE_BENT, 3 }, { SPLINE_NOT_A_KNOT, 0 }, { 3, 3 } },
+		{ { SPLINE_NATURAL, 0 }, { SPLINE_NOT_A_KNOT, 0 }, { 0, 0 } },
+	};
+	for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+		struct spline spline;
+		assert_int_equal(spline_create_mixed(*state, 2, (double[]){ 0, 2 }, (double[]){ 0, 2 },
+		                                     cases[i].first, cases[i].last, &spline),
+		                 BATTEN_OK);
+		for (size_t k = 0; k < 2; k++)
+			assert_close(spline.second[k], cases[i].second[k], 1e-14);
+		spline_destroy(&spline);
+	}
+}
+
+/* Only a natural end goes on straight. */
+static void beyond_mixed_ends(void **state)
+{
+	struct spline spline;
+	assert_int_equal(spline_create_mixed(*state, 3, (double[]){ 0, 1, 2 }, (double[]){ 0, 1, 0 },
+	                                     (struct spline_condition){ SPLINE_NATURAL, 0 },
+	                                     (struct spline_condition){ SPLINE_NOT_A_KNOT, 0 },
+	                                     &spline),
+	                 BATTEN_OK);
+	/* y = 4/3 x - x^3 / 3 all along. */
+	assert_close(spline_value(&spline, 3), 4 - 9, 1e-14);
+	assert_close(spline_value(&spline, -3), -4, 1e-14);
+	assert_close(spline_second(&spline, 3), -6, 1e-14);
+	assert_close(spline_second(&spline, -3), 0, 0);
 	spline_destroy(&spline);
 }
 
@@ -220,8 +247,9 @@ static void wrong_arguments(void **state)
 	                 BATTEN_USAGE);
 	assert_int_equal(spline_create(*state, 3, (double[]){ 0, 1, 2 }, y, SPLINE_CLAMPED, &spline),
 	                 BATTEN_USAGE);
-	assert_int_equal(spline_create_clamped(*state, 3, (double[]){ 0, 1, 2 }, y, NAN, 0, &spline),
-	                 BATTEN_USAGE);
+	assert_int_equal(
+		spline_create_mixed(*state, 3, (double[]){ 0, 1, 2 }, y, CLAMPED(NAN), CLAMPED(0), &spline),
+		BATTEN_USAGE);
 	assert_null(spline.x);
 	spline_destroy(&spline);
 }
@@ -233,6 +261,9 @@ int main(void)
 		cmocka_unit_test_setup_teardown(cubic_comes_back, make_context, end_context),
 		cmocka_unit_test_setup_teardown(few_points, make_context, end_context),
 		cmocka_unit_test_setup_teardown(general, make_context, end_context),
+		cmocka_unit_test_setup_teardown(mixed_ends_by_hand, make_context, end_context),
+		cmocka_unit_test_setup_teardown(mixed_ends_of_two_points, make_context, end_context),
+		cmocka_unit_test_setup_teardown(beyond_mixed_ends, make_context, end_context),
 		cmocka_unit_test_setup_teardown(wrong_arguments, make_context, end_context),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,39 @@
+/* batten curve: what is asked for, and how the answer is printed. */
+#ifndef BATTEN_CLI_CURVE_REQUEST_H
+#define BATTEN_CLI_CURVE_REQUEST_H
+
+#include "cli.h"
+
+enum { CURVES_MOST = 16, LABEL_SIZE = 64, DRAWN_MOST = 8 };
+
+/* One representation as the command line spells it. */
+typedef struct curve_choice {
+	char label[LABEL_SIZE];
+	batten_curve_options options;
+} curve_choice;
+
+typedef struct curve_request {
+	const char *path, *as, *parameter, *out;
+	unsigned order, points;
+	cli_common common;
+	batten_curve_parameter by;
+	size_t count;
+	curve_choice choices[CURVES_MOST];
+} curve_request;
+
+/* A curve made, measured and compared with the points. */
+typedef struct curve_answer {
+	batten_curve *curve;
+	batten_curve_measures measures;
+	batten_curve_datum *data; /* one a point */
+} curve_answer;
+
+/* Reads --as, --parameter and --order into the choices. Returns OK or USAGE (message printed). */
+batten_status curve_read_request(curve_request *request);
+
+void curve_print_table(const curve_request *request, const batten_points *points,
+                       const curve_answer *answers);
+batten_status curve_print_json(const curve_request *request, const batten_points *points,
+                               const curve_answer *answers);
+
+#endif
