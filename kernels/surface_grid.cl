@@ -224,9 +224,13 @@ static inline void put_triple(real *tile, int i, int value, surface_triple t)
 	PUT(value + 2, t.z);
 }
 
-static inline void put_everything(real *tile, int i, surface_jet j, surface_shape s)
+static inline void put_everything(real *tile, int i, surface_jet j, surface_shape s,
+                                  surface_triple light)
 {
 	const real spread = surface_spread_of(s);
+	const surface_frame frame = surface_frame_of(j, s);
+	const surface_directions d = surface_directions_of(frame, surface_rounding_of(j, s));
+	const surface_sections k = surface_sections_of(frame);
 	put_triple(tile, i, SURFACE_AT, j.at);
 	put_triple(tile, i, SURFACE_BY_U, j.u);
 	put_triple(tile, i, SURFACE_BY_V, j.v);
@@ -246,6 +250,11 @@ static inline void put_everything(real *tile, int i, surface_jet j, surface_shap
 	PUT(SURFACE_K1, s.mean + spread);
 	PUT(SURFACE_K2, s.mean - spread);
 	PUT(SURFACE_BENDING, s.bending);
+	put_triple(tile, i, SURFACE_DIRECTION1, d.first);
+	put_triple(tile, i, SURFACE_DIRECTION2, d.second);
+	PUT(SURFACE_ALONG_X, k.along);
+	PUT(SURFACE_ACROSS_X, k.across);
+	PUT(SURFACE_ISOPHOTE, triple_inner(s.normal, light));
 }
 
 /* A line ready to be gone along. */
@@ -254,6 +263,7 @@ typedef struct line {
 	global const int *first_u;
 	global const scalar *table_u;
 	real least_area;
+	surface_triple light;
 } line;
 
 static inline surface_jet jet_at(line l, int n)
@@ -299,7 +309,7 @@ static inline void work_run(line l, int n, int count, real *tile, real *missing)
 		const surface_jet j = jet_at(l, n + i);
 		const surface_shape s = surface_shape_of(j, l.least_area);
 		*missing = CHOOSE(s.regular, *missing, one);
-		put_everything(tile, i, j, s);
+		put_everything(tile, i, j, s, l.light);
 	}
 }
 
@@ -358,6 +368,7 @@ static inline void gather(const local real *gathered, int segments, global real 
 
 /* The lines first_line, first_line + 1 ... of the blocks first_block, first_block + 1 ...; the first
  * `surfaces` lanes of those blocks are surfaces to be given back.
+ * light: a unit vector, for isophotes (Letcher 4.5).
  * first_v, first_u: the first pole each line and each sample of a line sees. tables:
  * SURFACE_TABLE_SIZE a line, a sample. nets [block][columns][column_length][DIMENSION], least_areas
  * [block], all of real. There are segments times segment_length samples: a segment is summed by one
@@ -367,12 +378,12 @@ static inline void gather(const local real *gathered, int segments, global real 
  * reals a column of the net. gathered: SURFACE_SUM_COUNT reals a segment where there are sums, else
  * one. */
 kernel void surface_grid(int first_block, int first_line, int lines, int surfaces, int segments,
-                         int segment_length, int columns, int column_length,
-                         global const int *first_v, global const int *first_u,
-                         global const scalar *table_v, global const scalar *table_u,
-                         global const real *nets, global const real *least_areas,
-                         global number *values, global real *sums, global int *missing,
-                         local real *row, local real *gathered)
+                         int segment_length, int columns, int column_length, scalar light_x,
+                         scalar light_y, scalar light_z, global const int *first_v,
+                         global const int *first_u, global const scalar *table_v,
+                         global const scalar *table_u, global const real *nets,
+                         global const real *least_areas, global number *values, global real *sums,
+                         global int *missing, local real *row, local real *gathered)
 {
 	const size_t group = get_group_id(0);
 	const size_t block = group / (size_t)lines;
@@ -388,7 +399,8 @@ kernel void surface_grid(int first_block, int first_line, int lines, int surface
 		                row + i * DERIVATIVES * DIMENSION);
 	barrier(CLK_LOCAL_MEM_FENCE);
 
-	const line l = { row, first_u, table_u, least_areas[(size_t)first_block + block] };
+	const surface_triple light = { SPREAD(light_x), SPREAD(light_y), SPREAD(light_z) };
+	const line l = { row, first_u, table_u, least_areas[(size_t)first_block + block], light };
 	if (SURFACE_OUTPUT == SURFACE_OUTPUT_ENERGY) {
 		ROLLED
 		for (int s = (int)get_local_id(0); s < segments; s += (int)get_local_size(0))

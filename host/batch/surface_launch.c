@@ -190,10 +190,12 @@ static batten_status part_launch(const block *b, const part *p)
 		                        (int32_t)p->lines,      (int32_t)part_surfaces(b, p),
 		                        (int32_t)segments,      (int32_t)plan->segment_length,
 		                        (int32_t)plan->u.poles, (int32_t)plan->v.poles };
-	enum { NUMBER_COUNT = sizeof numbers / sizeof numbers[0], ARGUMENT_COUNT = NUMBER_COUNT + 11 };
+	enum { NUMBER_COUNT = sizeof numbers / sizeof numbers[0], ARGUMENT_COUNT = NUMBER_COUNT + 14 };
+	const bool f64 = plan->precision == BATTEN_F64;
+	const float light[] = { (float)plan->light[0], (float)plan->light[1], (float)plan->light[2] };
 	/* What the output does not call for is never touched: any buffer will do. */
 	device_argument arguments[ARGUMENT_COUNT] = {
-		[NUMBER_COUNT] = { .buffer = b->first_v_on },
+		[NUMBER_COUNT + 3] = { .buffer = b->first_v_on },
 		{ .buffer = b->first_u_on },
 		{ .buffer = b->table_v_on },
 		{ .buffer = b->table_u_on },
@@ -207,6 +209,11 @@ static batten_status part_launch(const block *b, const part *p)
 	};
 	for (size_t n = 0; n < NUMBER_COUNT; n++)
 		arguments[n] = (device_argument){ .size = sizeof numbers[n], .value = &numbers[n] };
+	for (size_t c = 0; c < 3; c++)
+		arguments[NUMBER_COUNT + c] = (device_argument){
+			.size = f64 ? sizeof plan->light[c] : sizeof light[c],
+			.value = f64 ? (const void *)&plan->light[c] : (const void *)&light[c]
+		};
 	const batten_status status = check_local_memory(b, (row + gathered) * b->lane_bytes);
 	return status != BATTEN_OK
 	           ? status

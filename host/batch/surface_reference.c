@@ -52,6 +52,7 @@ void surface_reference_run(surface_reference *reference, size_t which)
 		.column_length = (int)plan->v.poles,
 		.first_v = plan->v.first,
 		.first_u = plan->u.first,
+		.light = { plan->light[0], plan->light[1], plan->light[2] },
 	};
 	double least_area = 0.0;
 	float least_area_f32 = 0.0f;

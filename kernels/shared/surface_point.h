@@ -169,6 +169,97 @@ SHARED_FUNCTION real surface_spread_of(surface_shape s)
 	return SQUARE_ROOT(CHOOSE(square > zero, square, zero));
 }
 
+/* Second form in the orthonormal frame first = by_u / |by_u|, second = normal x first of the tangent
+ * plane: the shape operator, a symmetric matrix. All 0 where there is no normal. */
+typedef struct surface_frame {
+	surface_triple first, second;
+	real a, b, c;
+} surface_frame;
+
+SHARED_FUNCTION surface_frame surface_frame_of(surface_jet j, surface_shape s)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real square = CHOOSE(s.regular, s.first_uu, one);
+	const real area = CHOOSE(s.regular, s.area, one);
+	const real skew = s.first_uv / square;
+	const real mixed = FUSED(-skew, s.second_uu, s.second_uv);
+	surface_frame f;
+	f.first = triple_scale(CHOOSE(s.regular, one / SQUARE_ROOT(square), zero), j.u);
+	f.second = triple_outer(s.normal, f.first);
+	/* by_v = skew * by_u - area / |by_u| * second */
+	f.a = s.second_uu / square;
+	f.b = -(mixed / area);
+	f.c = FUSED(-skew, s.second_uv + mixed, s.second_vv) / area * (square / area);
+	f.c = CHOOSE(s.regular, f.c, zero);
+	return f;
+}
+
+/* Square of half the difference of the principal curvatures that is still rounding: the second
+ * derivatives could all lie along the normal. */
+SHARED_FUNCTION real surface_rounding_of(surface_jet j, surface_shape s)
+{
+	const real one = SPREAD(LITERAL(1.0));
+	const real area = CHOOSE(s.regular, s.area, one);
+	const real by_uu = s.first_vv / area / area;
+	const real by_vv = s.first_uu / area / area;
+	const real uu = triple_inner(j.uu, j.uu) * by_uu * by_uu;
+	const real uv = triple_inner(j.uv, j.uv) * by_uu * by_vv;
+	const real vv = triple_inner(j.vv, j.vv) * by_vv * by_vv;
+	return SPREAD(SURFACE_ANGLE * SURFACE_ANGLE) * (uu + uv + vv);
+}
+
+/* Unit directions of k1 and k2, 0 at umbilics: the eigenvectors, by half the angle whose cosine and
+ * sine the matrix gives. */
+typedef struct surface_directions {
+	surface_triple first, second;
+} surface_directions;
+
+SHARED_FUNCTION surface_directions surface_directions_of(surface_frame f, real rounding)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real apart_by = SPREAD(LITERAL(0.5)) * (f.a - f.c);
+	const real square = FUSED(apart_by, apart_by, f.b * f.b);
+	const mask apart = square > rounding;
+	const real spread = SQUARE_ROOT(CHOOSE(apart, square, one));
+	const real cosine = apart_by / spread;
+	const real sine = f.b / spread;
+	const mask steep = cosine < zero;
+	const real large = one + CHOOSE(steep, -cosine, cosine);
+	const real length = one / SQUARE_ROOT(FUSED(large, large, sine * sine));
+	const real x = CHOOSE(apart, CHOOSE(steep, sine, large) * length, zero);
+	const real y = CHOOSE(apart, CHOOSE(steep, large, sine) * length, zero);
+	surface_directions d;
+	d.first = triple_add(x, f.first, triple_scale(y, f.second));
+	d.second = triple_add(-y, f.first, triple_scale(x, f.second));
+	return d;
+}
+
+/* Normal curvatures (Letcher 4.3) along the x axis projected on the tangent plane and square to it;
+ * 0 where the normal lies along x. */
+typedef struct surface_sections {
+	real along, across;
+} surface_sections;
+
+SHARED_FUNCTION surface_sections surface_sections_of(surface_frame f)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real x = f.first.x;
+	const real y = f.second.x;
+	const real square = FUSED(x, x, y * y);
+	const mask inclined = square > SPREAD(SURFACE_ANGLE * SURFACE_ANGLE);
+	const real safe = CHOOSE(inclined, square, one);
+	const real twist = SPREAD(LITERAL(2.0)) * (x * y) * f.b;
+	surface_sections k;
+	k.along = FUSED(x * x, f.a, FUSED(y * y, f.c, twist)) / safe;
+	k.across = FUSED(y * y, f.a, FUSED(x * x, f.c, -twist)) / safe;
+	k.along = CHOOSE(inclined, k.along, zero);
+	k.across = CHOOSE(inclined, k.across, zero);
+	return k;
+}
+
 /* The mean curvature as it is stored. */
 SHARED_FUNCTION real surface_mark(surface_shape s)
 {
