@@ -6,6 +6,11 @@
  * many work-items. Every sum is worked in one fixed order by one work-item, so the shape does not
  * change a bit of the result; host/reference/surface_grid_body.h is the same in plain C.
  *
+ * Samples are worked in runs of as many as there are lanes: first the forms of all with the root and
+ * the division, then the curvatures of all, so that the long wait for a root is filled with the next
+ * sample's sums; then a run's values, a square of numbers, are turned so that each surface's lie side
+ * by side as the caller wants them.
+ *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES and those below. */
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
@@ -17,6 +22,7 @@
 #define ORDER_U 4
 #define ORDER_V 4
 #define RATIONAL 1
+#define OUT_DOUBLE BATTEN_DOUBLE
 #endif
 #define DIMENSION (3 + RATIONAL)
 #define WEIGHT (3 * RATIONAL) /* its place in a pole, or one that is there */
@@ -109,55 +115,242 @@ static inline surface_jet jet_of(const local real *poles, global const scalar *t
 	return RATIONAL ? surface_divide(j, w) : j;
 }
 
-static inline void put_triple(global real *out, surface_triple t)
+/* Numbers as they are given back: doubles, or those of the precision. */
+#if OUT_DOUBLE
+#if !BATTEN_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+#define NUMBER_NAME double
+#else
+#define NUMBER_NAME float
+#endif
+#if BATTEN_LANES == 1
+typedef NUMBER_NAME number, numbers;
+#define CONVERT(a) ((number)(a))
+#define STORE(a, to) (*(to) = (a))
+#else
+typedef NUMBER_NAME number;
+typedef BATTEN_PASTE(NUMBER_NAME, BATTEN_LANES) numbers;
+#define CONVERT(a) BATTEN_PASTE(convert_, BATTEN_PASTE(NUMBER_NAME, BATTEN_LANES))(a)
+#define STORE(a, to) BATTEN_PASTE(vstore, BATTEN_LANES)(a, 0, to)
+#endif
+
+/* The first halves of two vectors taken in turns, and the second halves. */
+#if BATTEN_LANES == 2
+#define TURNS_LOW(a, b) (real)(a.s0, b.s0)
+#define TURNS_HIGH(a, b) (real)(a.s1, b.s1)
+#elif BATTEN_LANES == 4
+#define TURNS_LOW(a, b) (real)(a.s0, b.s0, a.s1, b.s1)
+#define TURNS_HIGH(a, b) (real)(a.s2, b.s2, a.s3, b.s3)
+#elif BATTEN_LANES == 8
+#define TURNS_LOW(a, b) (real)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3)
+#define TURNS_HIGH(a, b) (real)(a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7)
+#elif BATTEN_LANES == 16
+#define TURNS_LOW(a, b)                                                                            \
+	(real)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3, a.s4, b.s4, a.s5, b.s5, a.s6, b.s6,     \
+	       a.s7, b.s7)
+#define TURNS_HIGH(a, b)                                                                           \
+	(real)(a.s8, b.s8, a.s9, b.s9, a.sa, b.sa, a.sb, b.sb, a.sc, b.sc, a.sd, b.sd, a.se, b.se,     \
+	       a.sf, b.sf)
+#endif
+
+/* Rows become columns: to take turns moves the first bit of a number's place (row, lane) to its end;
+ * done as often as a row has bits, rows and lanes have changed places. */
+#if BATTEN_LANES == 1
+#define turn(square)
+#else
+static inline void turn(real square[BATTEN_LANES])
 {
-	out[0] = t.x;
-	out[1] = t.y;
-	out[2] = t.z;
+	UNROLLED
+	for (int done = 1; done < BATTEN_LANES; done *= 2) {
+		real next[BATTEN_LANES];
+		UNROLLED
+		for (int i = 0; i < BATTEN_LANES / 2; i++) {
+			const real a = square[i];
+			const real b = square[i + BATTEN_LANES / 2];
+			next[2 * i] = TURNS_LOW(a, b);
+			next[2 * i + 1] = TURNS_HIGH(a, b);
+		}
+		UNROLLED
+		for (int i = 0; i < BATTEN_LANES; i++)
+			square[i] = next[i];
+	}
+}
+#endif
+
+/* Where the values of a run go: those of surface s, value v, sample n lie at out + (s * VALUES + v) *
+ * plane + n. */
+typedef struct target {
+	global number *out;
+	size_t plane;
+	int surfaces; /* how many of the lanes */
+} target;
+
+/* Gives back count samples of the run in tile [VALUES][BATTEN_LANES]. */
+static inline void give_back(const real *tile, int count, target to)
+{
+	ROLLED
+	for (int v = 0; v < VALUES; v++, to.out += to.plane) {
+		const real *from = tile + v * BATTEN_LANES;
+		if (count == BATTEN_LANES) {
+			real square[BATTEN_LANES];
+			UNROLLED
+			for (int i = 0; i < BATTEN_LANES; i++)
+				square[i] = from[i];
+			turn(square);
+			UNROLLED
+			for (int s = 0; s < BATTEN_LANES; s++)
+				if (s < to.surfaces)
+					STORE(CONVERT(square[s]), to.out + (size_t)(s * VALUES) * to.plane);
+		} else {
+			ROLLED
+			for (int i = 0; i < count * BATTEN_LANES; i++) {
+				const int s = i % BATTEN_LANES;
+				if (s < to.surfaces)
+					to.out[(size_t)(s * VALUES) * to.plane + (size_t)(i / BATTEN_LANES)] =
+						(number)((const scalar *)from)[i];
+			}
+		}
+	}
 }
 
-static inline void put_everything(global real *out, surface_jet j, surface_shape s)
+/* One value of sample i of a run. */
+#define PUT(value, a) tile[(value)*BATTEN_LANES + i] = (a)
+
+static inline void put_triple(real *tile, int i, int value, surface_triple t)
+{
+	PUT(value, t.x);
+	PUT(value + 1, t.y);
+	PUT(value + 2, t.z);
+}
+
+static inline void put_everything(real *tile, int i, surface_jet j, surface_shape s,
+                                  surface_triple light)
 {
 	const real spread = surface_spread_of(s);
-	put_triple(out + SURFACE_AT, j.at);
-	put_triple(out + SURFACE_BY_U, j.u);
-	put_triple(out + SURFACE_BY_V, j.v);
-	put_triple(out + SURFACE_BY_UU, j.uu);
-	put_triple(out + SURFACE_BY_UV, j.uv);
-	put_triple(out + SURFACE_BY_VV, j.vv);
-	out[SURFACE_FIRST_UU] = s.first_uu;
-	out[SURFACE_FIRST_UV] = s.first_uv;
-	out[SURFACE_FIRST_VV] = s.first_vv;
-	out[SURFACE_AREA] = s.area;
-	put_triple(out + SURFACE_NORMAL, s.normal);
-	out[SURFACE_SECOND_UU] = s.second_uu;
-	out[SURFACE_SECOND_UV] = s.second_uv;
-	out[SURFACE_SECOND_VV] = s.second_vv;
-	out[SURFACE_GAUSS] = s.gauss;
-	out[SURFACE_MEAN] = surface_mark(s);
-	out[SURFACE_K1] = s.mean + spread;
-	out[SURFACE_K2] = s.mean - spread;
-	out[SURFACE_BENDING] = s.bending;
+	const surface_frame frame = surface_frame_of(j, s);
+	const surface_directions d = surface_directions_of(frame, surface_rounding_of(j, s));
+	const surface_sections k = surface_sections_of(frame);
+	put_triple(tile, i, SURFACE_AT, j.at);
+	put_triple(tile, i, SURFACE_BY_U, j.u);
+	put_triple(tile, i, SURFACE_BY_V, j.v);
+	put_triple(tile, i, SURFACE_BY_UU, j.uu);
+	put_triple(tile, i, SURFACE_BY_UV, j.uv);
+	put_triple(tile, i, SURFACE_BY_VV, j.vv);
+	PUT(SURFACE_FIRST_UU, s.first_uu);
+	PUT(SURFACE_FIRST_UV, s.first_uv);
+	PUT(SURFACE_FIRST_VV, s.first_vv);
+	PUT(SURFACE_AREA, s.area);
+	put_triple(tile, i, SURFACE_NORMAL, s.normal);
+	PUT(SURFACE_SECOND_UU, s.second_uu);
+	PUT(SURFACE_SECOND_UV, s.second_uv);
+	PUT(SURFACE_SECOND_VV, s.second_vv);
+	PUT(SURFACE_GAUSS, s.gauss);
+	PUT(SURFACE_MEAN, surface_mark(s));
+	PUT(SURFACE_K1, s.mean + spread);
+	PUT(SURFACE_K2, s.mean - spread);
+	PUT(SURFACE_BENDING, s.bending);
+	put_triple(tile, i, SURFACE_DIRECTION1, d.first);
+	put_triple(tile, i, SURFACE_DIRECTION2, d.second);
+	PUT(SURFACE_ALONG_X, k.along);
+	PUT(SURFACE_ACROSS_X, k.across);
+	PUT(SURFACE_ISOPHOTE, triple_inner(s.normal, light));
 }
 
-/* One sample of a line: its values to out, or what it adds to the sums. */
-static inline void work_sample(const local real *poles, global const scalar *table, real least_area,
-                               global real *out, surface_sums *sums)
+/* A line ready to be gone along. */
+typedef struct line {
+	const local real *row;
+	global const int *first_u;
+	global const scalar *table_u;
+	real least_area;
+	surface_triple light;
+} line;
+
+static inline surface_jet jet_at(line l, int n)
 {
-	if (SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION) {
-		put_triple(out, point_of(poles, table));
+	return jet_of(l.row + l.first_u[n] * DERIVATIVES * DIMENSION,
+	              l.table_u + n * SURFACE_TABLE_SIZE(ORDER_U));
+}
+
+/* The forms of count samples from number n. */
+static inline void find_forms(line l, int n, int count, surface_forms *forms)
+{
+	ROLLED
+	for (int i = 0; i < count; i++) {
+		const surface_jet j = jet_at(l, n + i);
+		forms[i] = surface_forms_of(j, triple_outer(j.v, j.u), l.least_area);
+	}
+}
+
+/* The values of count samples from number n. missing grows to 1 in a lane without a normal. */
+static inline void work_run(line l, int n, int count, real *tile, real *missing)
+{
+	const real one = SPREAD(LITERAL(1.0));
+	if (SURFACE_OUTPUT == SURFACE_OUTPUT_CURVATURE) {
+		surface_forms forms[BATTEN_LANES];
+		find_forms(l, n, count, forms);
+		ROLLED
+		for (int i = 0; i < count; i++) {
+			const surface_shape s = surface_shape_from(forms[i], triple_zero());
+			*missing = CHOOSE(s.regular, *missing, one);
+			PUT(0, s.gauss);
+			PUT(1, surface_mark(s));
+		}
 		return;
 	}
-	const surface_jet j = jet_of(poles, table);
-	const surface_shape s = surface_shape_of(j, least_area);
-	if (SURFACE_OUTPUT == SURFACE_OUTPUT_CURVATURE) {
-		out[0] = s.gauss;
-		out[1] = surface_mark(s);
-	} else if (SURFACE_OUTPUT == SURFACE_OUTPUT_EVERYTHING) {
-		put_everything(out, j, s);
-	} else {
-		surface_sums_add(sums, s, table[3 * ORDER_U]);
+	ROLLED
+	for (int i = 0; i < count; i++) {
+		if (SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION) {
+			put_triple(tile, i, 0,
+			           point_of(l.row + l.first_u[n + i] * DIMENSION,
+			                    l.table_u + (n + i) * SURFACE_TABLE_SIZE(ORDER_U)));
+			continue;
+		}
+		const surface_jet j = jet_at(l, n + i);
+		const surface_shape s = surface_shape_of(j, l.least_area);
+		*missing = CHOOSE(s.regular, *missing, one);
+		put_everything(tile, i, j, s, l.light);
 	}
+}
+
+/* All runs of a line that are this work-item's; whether a sample of them has no normal. */
+static inline int work_line(line l, int samples, target to)
+{
+	real missing = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int n = (int)get_local_id(0) * BATTEN_LANES; n < samples;
+	     n += (int)get_local_size(0) * BATTEN_LANES) {
+		const int left = samples - n;
+		const int count = left < BATTEN_LANES ? left : BATTEN_LANES;
+		target here = to;
+		real tile[VALUES * BATTEN_LANES];
+		here.out += n;
+		work_run(l, n, count, tile, &missing);
+		give_back(tile, count, here);
+	}
+	return ANY(missing != SPREAD(LITERAL(0.0))) ? 1 : 0;
+}
+
+/* What a segment of a line adds up. */
+static inline void sum_segment(line l, int begin, int end, local real *out)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	surface_sums sums = { zero, zero, zero, zero, zero };
+	ROLLED
+	for (int n = begin; n < end; n += BATTEN_LANES) {
+		const int count = end - n < BATTEN_LANES ? end - n : BATTEN_LANES;
+		surface_forms forms[BATTEN_LANES];
+		find_forms(l, n, count, forms);
+		ROLLED
+		for (int i = 0; i < count; i++)
+			surface_sums_add(&sums, surface_shape_from(forms[i], triple_zero()),
+			                 l.table_u[(n + i) * SURFACE_TABLE_SIZE(ORDER_U) + 3 * ORDER_U]);
+	}
+	out[SURFACE_SUM_BENDING] = sums.bending;
+	out[SURFACE_SUM_MEAN] = sums.mean;
+	out[SURFACE_SUM_GAUSS] = sums.gauss;
+	out[SURFACE_SUM_AREA] = sums.area;
+	out[SURFACE_SUM_SINGULAR] = sums.singular;
 }
 
 /* The sums of all segments, in their order. */
@@ -173,54 +366,54 @@ static inline void gather(const local real *gathered, int segments, global real 
 	}
 }
 
-/* The lines first_line, first_line + 1 ... of the blocks first_block, first_block + 1 ...
+/* The lines first_line, first_line + 1 ... of the blocks first_block, first_block + 1 ...; the first
+ * `surfaces` lanes of those blocks are surfaces to be given back.
+ * light: a unit vector, for isophotes (Letcher 4.5).
  * first_v, first_u: the first pole each line and each sample of a line sees. tables:
  * SURFACE_TABLE_SIZE a line, a sample. nets [block][columns][column_length][DIMENSION], least_areas
  * [block], all of real. There are segments times segment_length samples: a segment is summed by one
- * work-item. out: [block][lines][samples][VALUES], or [block][lines][SURFACE_SUM_COUNT] of sums, both
- * counted from the first. row: DERIVATIVES * DIMENSION reals a column of the net. gathered:
- * SURFACE_SUM_COUNT reals a segment where there are sums, else one. */
-kernel void surface_grid(int first_block, int first_line, int lines, int segments,
-                         int segment_length, int columns, int column_length,
-                         global const int *first_v, global const int *first_u,
-                         global const scalar *table_v, global const scalar *table_u,
-                         global const real *nets, global const real *least_areas, global real *out,
-                         local real *row, local real *gathered)
+ * work-item. values: [surface][VALUES][lines][samples], sums: [block][lines][SURFACE_SUM_COUNT] of
+ * real, missing: [block][lines][work-items], 1 where a sample has no normal; all counted from the
+ * first of the launch, and only what the output calls for is written. row: DERIVATIVES * DIMENSION
+ * reals a column of the net. gathered: SURFACE_SUM_COUNT reals a segment where there are sums, else
+ * one. */
+kernel void surface_grid(int first_block, int first_line, int lines, int surfaces, int segments,
+                         int segment_length, int columns, int column_length, scalar light_x,
+                         scalar light_y, scalar light_z, global const int *first_v,
+                         global const int *first_u, global const scalar *table_v,
+                         global const scalar *table_u, global const real *nets,
+                         global const real *least_areas, global number *values, global real *sums,
+                         global int *missing, local real *row, local real *gathered)
 {
-	const size_t block = (size_t)first_block + get_group_id(0) / (size_t)lines;
-	const int line = first_line + (int)(get_group_id(0) % (size_t)lines);
-	const size_t samples = (size_t)segments * (size_t)segment_length;
-	const real least_area = least_areas[block];
-	nets += (block * (size_t)columns * (size_t)column_length + (size_t)first_v[line]) * DIMENSION;
-	table_v += line * SURFACE_TABLE_SIZE(ORDER_V);
+	const size_t group = get_group_id(0);
+	const size_t block = group / (size_t)lines;
+	const size_t k = group % (size_t)lines;
+	const int samples = segments * segment_length;
+	nets += (((size_t)first_block + block) * (size_t)columns * (size_t)column_length +
+	         (size_t)first_v[first_line + (int)k]) *
+	        DIMENSION;
+	table_v += (first_line + (int)k) * SURFACE_TABLE_SIZE(ORDER_V);
 	ROLLED
 	for (int i = (int)get_local_id(0); i < columns; i += (int)get_local_size(0))
 		collapse_column(nets + (size_t)i * (size_t)column_length * DIMENSION, table_v,
 		                row + i * DERIVATIVES * DIMENSION);
 	barrier(CLK_LOCAL_MEM_FENCE);
 
-	const bool sums_up = SURFACE_OUTPUT == SURFACE_OUTPUT_ENERGY;
-	out += get_group_id(0) * (sums_up ? SURFACE_SUM_COUNT : samples * VALUES);
-	const real zero = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int s = (int)get_local_id(0); s < segments; s += (int)get_local_size(0)) {
-		surface_sums sums = { zero, zero, zero, zero, zero };
+	const surface_triple light = { SPREAD(light_x), SPREAD(light_y), SPREAD(light_z) };
+	const line l = { row, first_u, table_u, least_areas[(size_t)first_block + block], light };
+	if (SURFACE_OUTPUT == SURFACE_OUTPUT_ENERGY) {
 		ROLLED
-		for (int n = s * segment_length; n < (s + 1) * segment_length; n++)
-			work_sample(row + first_u[n] * DERIVATIVES * DIMENSION,
-			            table_u + n * SURFACE_TABLE_SIZE(ORDER_U), least_area,
-			            out + (sums_up ? 0 : (size_t)n * VALUES), &sums);
-		if (sums_up) {
-			local real *mine = gathered + s * SURFACE_SUM_COUNT;
-			mine[SURFACE_SUM_BENDING] = sums.bending;
-			mine[SURFACE_SUM_MEAN] = sums.mean;
-			mine[SURFACE_SUM_GAUSS] = sums.gauss;
-			mine[SURFACE_SUM_AREA] = sums.area;
-			mine[SURFACE_SUM_SINGULAR] = sums.singular;
-		}
-	}
-	if (sums_up) {
+		for (int s = (int)get_local_id(0); s < segments; s += (int)get_local_size(0))
+			sum_segment(l, s * segment_length, (s + 1) * segment_length,
+			            gathered + s * SURFACE_SUM_COUNT);
 		barrier(CLK_LOCAL_MEM_FENCE);
-		gather(gathered, segments, out);
+		gather(gathered, segments, sums + group * SURFACE_SUM_COUNT);
+	} else {
+		const size_t first = block * BATTEN_LANES;
+		const int left = surfaces - (int)first;
+		const size_t plane = (size_t)lines * (size_t)samples;
+		const target to = { values + first * VALUES * plane + k * (size_t)samples, plane,
+			                left < BATTEN_LANES ? left : BATTEN_LANES };
+		missing[group * get_local_size(0) + get_local_id(0)] = work_line(l, samples, to);
 	}
 }

@@ -1,5 +1,7 @@
 #include "batch/surface_pack.h"
 
+#include <string.h>
+
 static void put(const surface_plan *plan, void *numbers, size_t at, double value)
 {
 	if (plan->precision == BATTEN_F64)
@@ -48,28 +50,55 @@ void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t
 }
 
 /* The loops over all that was computed, written for both precisions: a test for each number would
- * take as long as computing it. The mean curvature, number `mean` of a sample, tells where there is
- * no normal. */
-#define UNPACK(name, number)                                                                       \
-	static void name(const surface_plan *plan, size_t mean, double *values, uint8_t *singular,     \
-	                 size_t stride, const number *out)                                             \
+ * take as long as computing it. */
+#define TAKE(name, number)                                                                         \
+	static void name(const surface_plan *plan, double *values, const number *numbers,              \
+	                 size_t value_stride, size_t stride)                                           \
 	{                                                                                              \
-		const number none = (number)SURFACE_NO_NORMAL;                                             \
-		const size_t count = surface_plan_values(plan);                                            \
 		const size_t plane = plan->u.count * plan->v.count;                                        \
-		for (size_t v = 0; v < count; v++) {                                                       \
-			double *to = values + v * plane;                                                       \
-			const number *from = out + v * stride;                                                 \
-			for (size_t i = 0; i < plan->u.count; i++) {                                           \
-				const number value = from[i * count * stride];                                     \
-				to[i] = v == mean && value == none ? 0.0 : (double)value;                          \
-			}                                                                                      \
-		}                                                                                          \
-		for (size_t i = 0; singular && i < plan->u.count; i++)                                     \
-			singular[i] = mean < count && out[(i * count + mean) * stride] == none;                \
+		for (size_t v = 0; v < surface_plan_values(plan); v++)                                     \
+			for (size_t i = 0; i < plan->u.count; i++)                                             \
+				values[v * plane + i] = (double)numbers[v * value_stride + i * stride];            \
 	}
-UNPACK(unpack_line_f64, double)
-UNPACK(unpack_line_f32, float)
+TAKE(take_doubles, double)
+TAKE(take_floats, float)
+
+static double *line_of(const surface_plan *plan, size_t which, size_t line)
+{
+	const size_t plane = plan->u.count * plan->v.count;
+	return plan->values + which * surface_plan_values(plan) * plane + line * plan->u.count;
+}
+
+void surface_take_line(const surface_plan *plan, size_t which, size_t line, const void *numbers,
+                       bool doubles, size_t value_stride, size_t stride)
+{
+	double *values = line_of(plan, which, line);
+	if (doubles)
+		take_doubles(plan, values, numbers, value_stride, stride);
+	else
+		take_floats(plan, values, numbers, value_stride, stride);
+}
+
+void surface_mark_line(const surface_plan *plan, size_t which, size_t line, bool missing)
+{
+	const size_t plane = plan->u.count * plan->v.count;
+	uint8_t *singular = plan->singular ? plan->singular + which * plane + line * plan->u.count
+	                                   : NULL;
+	if (singular)
+		memset(singular, 0, plan->u.count);
+	if (!missing || plan->output == SURFACE_OUTPUT_POSITION)
+		return;
+	const double none = plan->precision == BATTEN_F64 ? SURFACE_NO_NORMAL
+	                                                  : (double)(float)SURFACE_NO_NORMAL;
+	double *mean = line_of(plan, which, line) +
+	               plane * (plan->output == SURFACE_OUTPUT_CURVATURE ? 1 : SURFACE_MEAN);
+	for (size_t i = 0; i < plan->u.count; i++)
+		if (mean[i] == none) {
+			mean[i] = 0.0;
+			if (singular)
+				singular[i] = 1;
+		}
+}
 
 static double get(const surface_plan *plan, const void *numbers, size_t at)
 {
@@ -78,35 +107,14 @@ static double get(const surface_plan *plan, const void *numbers, size_t at)
 	return (double)((const float *)numbers)[at];
 }
 
-/* The weight of a line along v times its sums; points are counted. */
-static void add_sums(const surface_plan *plan, size_t line, double *sums, size_t lane, size_t lanes,
-                     const void *out)
+void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_t lane,
+                      size_t lanes, const void *numbers)
 {
 	const size_t size = SURFACE_TABLE_SIZE(plan->v.order);
 	const double weight = plan->v.table[line * size + size - 1];
+	double *sums = plan->values + which * SURFACE_SUM_COUNT;
 	for (size_t v = 0; v < SURFACE_SUM_COUNT; v++) {
-		const double sum = get(plan, out, v * lanes + lane);
+		const double sum = get(plan, numbers, v * lanes + lane);
 		sums[v] = (line == 0 ? 0.0 : sums[v]) + (v == SURFACE_SUM_SINGULAR ? sum : weight * sum);
 	}
-}
-
-void surface_unpack(const surface_plan *plan, size_t which, size_t line, size_t lane, size_t lanes,
-                    const void *out)
-{
-	const size_t plane = plan->u.count * plan->v.count;
-	const size_t mean = plan->output == SURFACE_OUTPUT_CURVATURE    ? 1
-	                    : plan->output == SURFACE_OUTPUT_EVERYTHING ? SURFACE_MEAN
-	                                                                : SURFACE_EVERYTHING_COUNT;
-	if (plan->output == SURFACE_OUTPUT_ENERGY) {
-		add_sums(plan, line, plan->values + which * SURFACE_SUM_COUNT, lane, lanes, out);
-		return;
-	}
-	double *values = plan->values + which * surface_plan_values(plan) * plane +
-	                 line * plan->u.count;
-	uint8_t *singular = plan->singular ? plan->singular + which * plane + line * plan->u.count
-	                                   : NULL;
-	if (plan->precision == BATTEN_F64)
-		unpack_line_f64(plan, mean, values, singular, lanes, (const double *)out + lane);
-	else
-		unpack_line_f32(plan, mean, values, singular, lanes, (const float *)out + lane);
 }

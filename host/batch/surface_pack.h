@@ -16,9 +16,18 @@ size_t surface_pack_net_count(const surface_plan *plan);
 void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t lane, size_t lanes,
                       void *net, void *least_area);
 
-/* Takes one line of one lane into the plan's values of surface `which`. Sums are added up: the lines
- * of a surface come in their order. */
-void surface_unpack(const surface_plan *plan, size_t which, size_t line, size_t lane, size_t lanes,
-                    const void *out);
+/* Takes one line into the plan's values of surface `which`: value v of sample n is number
+ * v * value_stride + n * stride, all doubles or all floats. */
+void surface_take_line(const surface_plan *plan, size_t which, size_t line, const void *numbers,
+                       bool doubles, size_t value_stride, size_t stride);
+
+/* Completes a line that is in the plan's values. missing: it may have points without a normal, whose
+ * mean curvature is a mark; they become singular ones. */
+void surface_mark_line(const surface_plan *plan, size_t which, size_t line, bool missing);
+
+/* Adds the sums of one line of one lane, weighted, to those of surface `which`; points are counted.
+ * The lines of a surface come in their order. */
+void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_t lane,
+                      size_t lanes, const void *numbers);
 
 #endif

@@ -26,6 +26,7 @@ typedef struct surface_plan {
 	int output; /* SURFACE_OUTPUT_... */
 	bool rational;
 	surface_samples u, v;
+	double light[3];       /* a unit vector, of isophotes */
 	size_t segment_length; /* samples along u summed together; divides their number */
 	int device;
 	batten_precision precision;

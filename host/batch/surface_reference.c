@@ -52,6 +52,7 @@ void surface_reference_run(surface_reference *reference, size_t which)
 		.column_length = (int)plan->v.poles,
 		.first_v = plan->v.first,
 		.first_u = plan->u.first,
+		.light = { plan->light[0], plan->light[1], plan->light[2] },
 	};
 	double least_area = 0.0;
 	float least_area_f32 = 0.0f;
@@ -65,6 +66,14 @@ void surface_reference_run(surface_reference *reference, size_t which)
 		                           least_area_f32, reference->out, reference->scratch);
 	const size_t line_bytes = surface_plan_line_size(plan) *
 	                          batch_engine_number_size(plan->precision);
-	for (size_t k = 0; k < plan->v.count; k++)
-		surface_unpack(plan, which, k, 0, 1, (const char *)reference->out + k * line_bytes);
+	for (size_t k = 0; k < plan->v.count; k++) {
+		const char *line = (const char *)reference->out + k * line_bytes;
+		if (plan->output == SURFACE_OUTPUT_ENERGY) {
+			surface_add_sums(plan, which, k, 0, 1, line);
+		} else {
+			surface_take_line(plan, which, k, line, plan->precision == BATTEN_F64, 1,
+			                  surface_plan_values(plan));
+			surface_mark_line(plan, which, k, true);
+		}
+	}
 }

@@ -108,6 +108,7 @@ static surface_plan make_plan(test_batch *t, const batch_engine *engine, const s
 	surface_plan plan = { .context = engine->context,
 		                  .output = model->output,
 		                  .rational = model->rational,
+		                  .light = { 0.48, 0.6, 0.64 },
 		                  .segment_length = SEGMENT,
 		                  .precision = engine->recipe.precision,
 		                  .lanes = engine->recipe.lanes,

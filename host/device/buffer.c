@@ -2,8 +2,8 @@
 
 #include <inttypes.h>
 
-batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
-                                   device_buffer **out)
+static batten_status create(device_session *session, cl_mem_flags flags, size_t size, void *memory,
+                            device_buffer **out)
 {
 	uint64_t most = session->entry->facts.max_allocation_bytes;
 	if (size == 0)
@@ -19,19 +19,56 @@ batten_status device_buffer_create(device_session *session, size_t size, const v
 	batten_status status = BATTEN_OK;
 	cl_int code = CL_SUCCESS;
 	buffer->memory = DEVICE_CREATE(&session->system->opencl, &code, CreateBuffer,
-	                               session->environment, CL_MEM_READ_WRITE, size, NULL);
+	                               session->environment, flags, size, memory);
 	if (!device_object_made(session->system, &code, buffer->memory)) {
 		buffer->memory = NULL;
 		status = device_session_fail_call(session, code, "clCreateBuffer of %zu bytes", size);
 	}
-	if (status == BATTEN_OK && initial)
-		status = device_buffer_write(buffer, size, initial);
 	if (status != BATTEN_OK) {
 		device_buffer_destroy(buffer);
 		return status;
 	}
 	*out = buffer;
 	return BATTEN_OK;
+}
+
+batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
+                                   device_buffer **out)
+{
+	device_buffer *buffer = NULL;
+	batten_status status = create(session, CL_MEM_READ_WRITE, size, NULL, &buffer);
+	if (status != BATTEN_OK)
+		return status;
+	if (initial && buffer)
+		status = device_buffer_write(buffer, size, initial);
+	if (status == BATTEN_OK)
+		*out = buffer;
+	else
+		device_buffer_destroy(buffer);
+	return status;
+}
+
+batten_status device_buffer_wrap(device_session *session, size_t size, void *memory,
+                                 device_buffer **out)
+{
+	return create(session, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, size, memory, out);
+}
+
+batten_status device_buffer_settle(device_buffer *buffer)
+{
+	device_session *session = buffer->session;
+	const device_opencl *opencl = &session->system->opencl;
+	cl_int code = CL_SUCCESS;
+	void *mapped = DEVICE_CREATE(opencl, &code, EnqueueMapBuffer, session->queue, buffer->memory,
+	                             CL_TRUE, CL_MAP_READ, 0, buffer->size, 0, NULL, NULL);
+	if (code != CL_SUCCESS || !mapped)
+		return device_session_fail_call(session, code, "clEnqueueMapBuffer of %zu bytes",
+		                                buffer->size);
+	code = DEVICE_CALL(opencl, EnqueueUnmapMemObject, session->queue, buffer->memory, mapped, 0,
+	                   NULL, NULL);
+	if (code != CL_SUCCESS)
+		return device_session_fail_call(session, code, "clEnqueueUnmapMemObject");
+	return device_finish(session);
 }
 
 void device_buffer_destroy(device_buffer *buffer)

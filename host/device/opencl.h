@@ -34,6 +34,8 @@
 	X(ReleaseMemObject)                                                                            \
 	X(EnqueueWriteBuffer)                                                                          \
 	X(EnqueueReadBuffer)                                                                           \
+	X(EnqueueMapBuffer)                                                                            \
+	X(EnqueueUnmapMemObject)                                                                       \
 	X(SetKernelArg)                                                                                \
 	X(EnqueueNDRangeKernel)                                                                        \
 	X(Flush)                                                                                       \

@@ -13,13 +13,16 @@ _Static_assert((int)BATTEN_SURFACE_VALUE_COUNT == (int)SURFACE_EVERYTHING_COUNT,
 _Static_assert((int)BATTEN_SURFACE_VALUE_area == (int)SURFACE_AREA, "one list");
 _Static_assert((int)BATTEN_SURFACE_VALUE_normal_x == (int)SURFACE_NORMAL, "one list");
 _Static_assert((int)BATTEN_SURFACE_VALUE_mean == (int)SURFACE_MEAN, "one list");
+_Static_assert((int)BATTEN_SURFACE_VALUE_direction1_x == (int)SURFACE_DIRECTION1, "one list");
+_Static_assert((int)BATTEN_SURFACE_VALUE_along_x == (int)SURFACE_ALONG_X, "one list");
 
 void batten_surface_batch_options_default(batten_surface_batch_options *options)
 {
 	*options = (batten_surface_batch_options){ .struct_size = sizeof *options,
 		                                       .device = BATTEN_DEVICE_AUTO,
 		                                       .precision = BATTEN_F64,
-		                                       .output = BATTEN_SURFACE_CURVATURE };
+		                                       .output = BATTEN_SURFACE_CURVATURE,
+		                                       .light = { 0.0, 1.0, 0.0 } };
 }
 
 size_t batten_surface_output_count(batten_surface_output output)
@@ -136,6 +139,24 @@ batten_status surface_items_of(batten_context *context, size_t count,
 	return status;
 }
 
+/* Of length 1, by way of its largest coordinate so that no square is too large or too small. */
+static batten_status make_unit(batten_context *context, double light[3])
+{
+	const double most = fmax(fabs(light[0]), fmax(fabs(light[1]), fabs(light[2])));
+	if (!(most > 0.0) || !isfinite(light[0]) || !isfinite(light[1]) || !isfinite(light[2]))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "light from (%g, %g, %g): finite numbers, not all 0, are expected",
+		                   light[0], light[1], light[2]);
+	double square = 0.0;
+	for (size_t c = 0; c < 3; c++) {
+		light[c] /= most;
+		square += light[c] * light[c];
+	}
+	for (size_t c = 0; c < 3; c++)
+		light[c] /= sqrt(square);
+	return BATTEN_OK;
+}
+
 static batten_status check_options(batten_context *context,
                                    const batten_surface_batch_options *given,
                                    batten_surface_batch_options *chosen)
@@ -149,7 +170,7 @@ static batten_status check_options(batten_context *context,
 	if (batten_surface_output_count(chosen->output) == 0)
 		return batten_fail(context, BATTEN_USAGE, "surface output %d: 0 to 2 are expected",
 		                   (int)chosen->output);
-	return BATTEN_OK;
+	return make_unit(context, chosen->light);
 }
 
 static surface_plan plan_of(batten_context *context, size_t count, const surface_topology *topology,
@@ -157,6 +178,7 @@ static surface_plan plan_of(batten_context *context, size_t count, const surface
 {
 	return (surface_plan){ .context = context,
 		                   .rational = topology->rational,
+		                   .light = { options->light[0], options->light[1], options->light[2] },
 		                   .segment_length = 1,
 		                   .device = options->device,
 		                   .precision = options->precision,

@@ -695,7 +695,15 @@ BATTEN_API batten_status batten_surfaces_write(batten_context *context, size_t c
 
 /* What is known of a surface at one (u, v). The normal is by_v x by_u made a unit, outward for a
  * hull whose u runs forward and whose v runs up; a curvature is positive where the surface bends
- * towards it, so a convex hull's are negative (Letcher 4.2-4.3). */
+ * towards it, so a convex hull's are negative (Letcher 4.2-4.3).
+ *
+ * Principal directions lie square to each other in the tangent plane; either sense of one is right.
+ * They are 0 at umbilics: where half of k1 - k2 is not larger than 1e-10 (f32: 1e-5) times
+ * sqrt((|by_uu| G)^2 + |by_uv|^2 E G + (|by_vv| E)^2) / area^2, the curvature that the second
+ * derivatives could make. along_x and across_x are curvatures of the surface (of its normal sections),
+ * not of the section line, and add up to 2 H; both are 0 where the x axis and the normal are the same
+ * within 1e-10 (f32: 1e-5) radians, as on a flat transom: there is no direction then. Isophotes are
+ * lines along which normal times light is constant (Letcher 4.5). */
 #define BATTEN_SURFACE_VALUE_LIST(X)                                                               \
 	X(x, "position")                                                                               \
 	X(y, "position")                                                                               \
@@ -729,7 +737,16 @@ BATTEN_API batten_status batten_surfaces_write(batten_context *context, size_t c
 	X(mean, "mean curvature, H")                                                                   \
 	X(k1, "greater principal curvature")                                                           \
 	X(k2, "smaller principal curvature")                                                           \
-	X(bending, "k1^2 + k2^2")
+	X(bending, "k1^2 + k2^2")                                                                      \
+	X(direction1_x, "unit tangent in whose direction the surface bends by k1")                     \
+	X(direction1_y, "unit tangent in whose direction the surface bends by k1")                     \
+	X(direction1_z, "unit tangent in whose direction the surface bends by k1")                     \
+	X(direction2_x, "unit tangent in whose direction the surface bends by k2")                     \
+	X(direction2_y, "unit tangent in whose direction the surface bends by k2")                     \
+	X(direction2_z, "unit tangent in whose direction the surface bends by k2")                     \
+	X(along_x, "normal curvature along the x axis projected on the tangent plane")                 \
+	X(across_x, "normal curvature square to it, along the section x = constant")                   \
+	X(isophote, "normal times the direction of the light")
 
 typedef enum batten_surface_value {
 #define BATTEN_SURFACE_VALUE_ENTRY(name, text) BATTEN_SURFACE_VALUE_##name,
@@ -760,11 +777,13 @@ typedef struct batten_surface_batch_options {
 	int device; /* an index of batten_device_count(), or AUTO, REFERENCE */
 	batten_precision precision;
 	batten_surface_output output; /* of batten_surface_grid_batch(); BATTEN_SURFACE_CURVATURE */
-	unsigned gauss_points;        /* of batten_surface_energy_batch(), a knot span and direction,
+	/* Towards the light of isophotes: of any length, finite and not 0; (0, 1, 0), from port. */
+	double light[3];
+	unsigned gauss_points; /* of batten_surface_energy_batch(), a knot span and direction,
 	                                 1..16; 0 takes the order of the direction + 1 */
-	unsigned lanes;               /* surfaces a work-item works side by side: 1, 2, 4, 8, 16;
+	unsigned lanes;        /* surfaces a work-item works side by side: 1, 2, 4, 8, 16;
 	                                 0 chooses */
-	unsigned work_group;          /* work-items that share a line of samples; 0 chooses */
+	unsigned work_group;   /* work-items that share a line of samples; 0 chooses */
 } batten_surface_batch_options;
 BATTEN_API void batten_surface_batch_options_default(batten_surface_batch_options *options);
 

@@ -12,6 +12,7 @@ typedef struct reference_surface_grid {
 	int order_u, order_v, rational;
 	int lines, segments, segment_length, columns, column_length;
 	const int32_t *first_v, *first_u;
+	double light[3]; /* rounded to the precision */
 } reference_surface_grid;
 
 /* scratch: 12 numbers a column of the net. */

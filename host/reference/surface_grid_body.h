@@ -91,9 +91,12 @@ INLINED void put_triple(scalar *out, surface_triple t)
 	out[2] = t.z;
 }
 
-INLINED void put_everything(scalar *out, surface_jet j, surface_shape s)
+INLINED void put_everything(scalar *out, surface_jet j, surface_shape s, surface_triple light)
 {
 	const scalar spread = surface_spread_of(s);
+	const surface_frame frame = surface_frame_of(j, s);
+	const surface_directions d = surface_directions_of(frame, surface_rounding_of(j, s));
+	const surface_sections k = surface_sections_of(frame);
 	put_triple(out + SURFACE_AT, j.at);
 	put_triple(out + SURFACE_BY_U, j.u);
 	put_triple(out + SURFACE_BY_V, j.v);
@@ -113,6 +116,11 @@ INLINED void put_everything(scalar *out, surface_jet j, surface_shape s)
 	out[SURFACE_K1] = s.mean + spread;
 	out[SURFACE_K2] = s.mean - spread;
 	out[SURFACE_BENDING] = s.bending;
+	put_triple(out + SURFACE_DIRECTION1, d.first);
+	put_triple(out + SURFACE_DIRECTION2, d.second);
+	out[SURFACE_ALONG_X] = k.along;
+	out[SURFACE_ACROSS_X] = k.across;
+	out[SURFACE_ISOPHOTE] = triple_inner(s.normal, light);
 }
 
 INLINED int values_of(int output)
@@ -128,6 +136,8 @@ INLINED void work_line(const reference_surface_grid *shared, const scalar *row,
 {
 	const int pole_size = derivatives_of(shared) * (3 + shared->rational);
 	const int values = values_of(shared->output);
+	const surface_triple light = { (scalar)shared->light[0], (scalar)shared->light[1],
+		                           (scalar)shared->light[2] };
 	for (int n = 0; n < shared->segments * shared->segment_length; n++) {
 		const scalar *mine = row + shared->first_u[n] * pole_size;
 		const scalar *table = table_u + n * SURFACE_TABLE_SIZE(shared->order_u);
@@ -139,7 +149,7 @@ INLINED void work_line(const reference_surface_grid *shared, const scalar *row,
 		const surface_jet j = jet_of(shared, mine, table);
 		const surface_shape s = surface_shape_of(j, least_area);
 		if (shared->output == SURFACE_OUTPUT_EVERYTHING) {
-			put_everything(to, j, s);
+			put_everything(to, j, s, light);
 		} else {
 			to[0] = s.gauss;
 			to[1] = surface_mark(s);

@@ -32,6 +32,11 @@ enum {
 	SURFACE_K1,
 	SURFACE_K2,
 	SURFACE_BENDING,
+	SURFACE_DIRECTION1,
+	SURFACE_DIRECTION2 = SURFACE_DIRECTION1 + 3,
+	SURFACE_ALONG_X = SURFACE_DIRECTION2 + 3,
+	SURFACE_ACROSS_X,
+	SURFACE_ISOPHOTE,
 	SURFACE_EVERYTHING_COUNT
 };
 
@@ -49,7 +54,8 @@ enum {
 #define SURFACE_NO_NORMAL 3e38
 
 /* Two directions closer than this, in radians, or an area element this much smaller than the net's
- * own, are rounding: there is no normal. */
+ * own, are rounding: there is no normal. So is a difference of the principal curvatures this much
+ * smaller than what the second derivatives could make, and a normal this close to the x axis. */
 #define SURFACE_ANGLE_F64 1e-10
 #define SURFACE_ANGLE_F32 1e-5
 

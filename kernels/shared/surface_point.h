@@ -96,38 +96,56 @@ SHARED_FUNCTION surface_jet surface_divide(surface_jet h, surface_weight w)
 	return j;
 }
 
-/* least_area: the smallest |by_v x by_u| that is not rounding, squared. */
-SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
+/* Both fundamental forms, the second one times the area element, and what of the area element takes a
+ * root and a division. inverse2: its square inverted, 0 where there is no normal. */
+typedef struct surface_forms {
+	real first_uu, first_uv, first_vv, second_uu, second_uv, second_vv, area, inverse2;
+} surface_forms;
+
+/* normal: by_v x by_u. least_area: the smallest length of it that is not rounding, squared. */
+SHARED_FUNCTION surface_forms surface_forms_of(surface_jet j, surface_triple normal,
+                                               real least_area)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	const real two = SPREAD(LITERAL(2.0));
 	const real angle = SPREAD(SURFACE_ANGLE * SURFACE_ANGLE);
-	surface_shape s;
-	s.first_uu = triple_inner(j.u, j.u);
-	s.first_uv = triple_inner(j.u, j.v);
-	s.first_vv = triple_inner(j.v, j.v);
-	const surface_triple normal = triple_outer(j.v, j.u);
+	surface_forms f;
+	f.first_uu = triple_inner(j.u, j.u);
+	f.first_uv = triple_inner(j.u, j.v);
+	f.first_vv = triple_inner(j.v, j.v);
+	f.second_uu = triple_inner(normal, j.uu);
+	f.second_uv = triple_inner(normal, j.uv);
+	f.second_vv = triple_inner(normal, j.vv);
 	const real square = triple_inner(normal, normal);
 	/* Comparisons that NaN fails: derivatives too large for the precision give no normal. */
-	s.regular = (square > least_area) & (square > angle * (s.first_uu * s.first_vv));
+	const mask regular = (square > least_area) & (square > angle * (f.first_uu * f.first_vv));
 	/* Root and division side by side: neither waits for the other. */
-	const real safe = CHOOSE(s.regular, square, one);
-	const real area = SQUARE_ROOT(safe);
-	const real inverse2 = one / safe;
-	const real inverse = area * inverse2;
-	const real e = triple_inner(normal, j.uu) * inverse;
-	const real f = triple_inner(normal, j.uv) * inverse;
-	const real g = triple_inner(normal, j.vv) * inverse;
-	const real gauss = FUSED(e, g, -(f * f)) * inverse2;
+	const real safe = CHOOSE(regular, square, one);
+	f.area = SQUARE_ROOT(safe);
+	f.inverse2 = CHOOSE(regular, one / safe, SPREAD(LITERAL(0.0)));
+	return f;
+}
+
+SHARED_FUNCTION surface_shape surface_shape_from(surface_forms form, surface_triple normal)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real two = SPREAD(LITERAL(2.0));
+	const real inverse = form.area * form.inverse2;
+	surface_shape s;
+	s.first_uu = form.first_uu;
+	s.first_uv = form.first_uv;
+	s.first_vv = form.first_vv;
+	const real e = form.second_uu * inverse;
+	const real f = form.second_uv * inverse;
+	const real g = form.second_vv * inverse;
+	const real gauss = FUSED(e, g, -(f * f)) * form.inverse2;
 	const real mean = FUSED(e, s.first_vv, FUSED(g, s.first_uu, -((two * f) * s.first_uv))) *
-	                  (SPREAD(LITERAL(0.5)) * inverse2);
+	                  (SPREAD(LITERAL(0.5)) * form.inverse2);
 	const real bending = FUSED(mean * SPREAD(LITERAL(4.0)), mean, -(two * gauss));
-	s.regular = s.regular & (bending - bending == zero);
+	s.regular = (form.inverse2 > zero) & (bending - bending == zero);
 	s.normal.x = CHOOSE(s.regular, normal.x * inverse, zero);
 	s.normal.y = CHOOSE(s.regular, normal.y * inverse, zero);
 	s.normal.z = CHOOSE(s.regular, normal.z * inverse, zero);
-	s.area = CHOOSE(s.regular, area, zero);
+	s.area = CHOOSE(s.regular, form.area, zero);
 	s.second_uu = CHOOSE(s.regular, e, zero);
 	s.second_uv = CHOOSE(s.regular, f, zero);
 	s.second_vv = CHOOSE(s.regular, g, zero);
@@ -137,12 +155,109 @@ SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
 	return s;
 }
 
+SHARED_FUNCTION surface_shape surface_shape_of(surface_jet j, real least_area)
+{
+	const surface_triple normal = triple_outer(j.v, j.u);
+	return surface_shape_from(surface_forms_of(j, normal, least_area), normal);
+}
+
 /* Half the difference of the principal curvatures. */
 SHARED_FUNCTION real surface_spread_of(surface_shape s)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real square = FUSED(s.mean, s.mean, -s.gauss);
 	return SQUARE_ROOT(CHOOSE(square > zero, square, zero));
+}
+
+/* Second form in the orthonormal frame first = by_u / |by_u|, second = normal x first of the tangent
+ * plane: the shape operator, a symmetric matrix. All 0 where there is no normal. */
+typedef struct surface_frame {
+	surface_triple first, second;
+	real a, b, c;
+} surface_frame;
+
+SHARED_FUNCTION surface_frame surface_frame_of(surface_jet j, surface_shape s)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real square = CHOOSE(s.regular, s.first_uu, one);
+	const real area = CHOOSE(s.regular, s.area, one);
+	const real skew = s.first_uv / square;
+	const real mixed = FUSED(-skew, s.second_uu, s.second_uv);
+	surface_frame f;
+	f.first = triple_scale(CHOOSE(s.regular, one / SQUARE_ROOT(square), zero), j.u);
+	f.second = triple_outer(s.normal, f.first);
+	/* by_v = skew * by_u - area / |by_u| * second */
+	f.a = s.second_uu / square;
+	f.b = -(mixed / area);
+	f.c = FUSED(-skew, s.second_uv + mixed, s.second_vv) / area * (square / area);
+	f.c = CHOOSE(s.regular, f.c, zero);
+	return f;
+}
+
+/* Square of half the difference of the principal curvatures that is still rounding: the second
+ * derivatives could all lie along the normal. */
+SHARED_FUNCTION real surface_rounding_of(surface_jet j, surface_shape s)
+{
+	const real one = SPREAD(LITERAL(1.0));
+	const real area = CHOOSE(s.regular, s.area, one);
+	const real by_uu = s.first_vv / area / area;
+	const real by_vv = s.first_uu / area / area;
+	const real uu = triple_inner(j.uu, j.uu) * by_uu * by_uu;
+	const real uv = triple_inner(j.uv, j.uv) * by_uu * by_vv;
+	const real vv = triple_inner(j.vv, j.vv) * by_vv * by_vv;
+	return SPREAD(SURFACE_ANGLE * SURFACE_ANGLE) * (uu + uv + vv);
+}
+
+/* Unit directions of k1 and k2, 0 at umbilics: the eigenvectors, by half the angle whose cosine and
+ * sine the matrix gives. */
+typedef struct surface_directions {
+	surface_triple first, second;
+} surface_directions;
+
+SHARED_FUNCTION surface_directions surface_directions_of(surface_frame f, real rounding)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real apart_by = SPREAD(LITERAL(0.5)) * (f.a - f.c);
+	const real square = FUSED(apart_by, apart_by, f.b * f.b);
+	const mask apart = square > rounding;
+	const real spread = SQUARE_ROOT(CHOOSE(apart, square, one));
+	const real cosine = apart_by / spread;
+	const real sine = f.b / spread;
+	const mask steep = cosine < zero;
+	const real large = one + CHOOSE(steep, -cosine, cosine);
+	const real length = one / SQUARE_ROOT(FUSED(large, large, sine * sine));
+	const real x = CHOOSE(apart, CHOOSE(steep, sine, large) * length, zero);
+	const real y = CHOOSE(apart, CHOOSE(steep, large, sine) * length, zero);
+	surface_directions d;
+	d.first = triple_add(x, f.first, triple_scale(y, f.second));
+	d.second = triple_add(-y, f.first, triple_scale(x, f.second));
+	return d;
+}
+
+/* Normal curvatures (Letcher 4.3) along the x axis projected on the tangent plane and square to it;
+ * 0 where the normal lies along x. */
+typedef struct surface_sections {
+	real along, across;
+} surface_sections;
+
+SHARED_FUNCTION surface_sections surface_sections_of(surface_frame f)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real x = f.first.x;
+	const real y = f.second.x;
+	const real square = FUSED(x, x, y * y);
+	const mask inclined = square > SPREAD(SURFACE_ANGLE * SURFACE_ANGLE);
+	const real safe = CHOOSE(inclined, square, one);
+	const real twist = SPREAD(LITERAL(2.0)) * (x * y) * f.b;
+	surface_sections k;
+	k.along = FUSED(x * x, f.a, FUSED(y * y, f.c, twist)) / safe;
+	k.across = FUSED(y * y, f.a, FUSED(x * x, f.c, -twist)) / safe;
+	k.along = CHOOSE(inclined, k.along, zero);
+	k.across = CHOOSE(inclined, k.across, zero);
+	return k;
 }
 
 /* The mean curvature as it is stored. */

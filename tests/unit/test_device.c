@@ -97,6 +97,35 @@ static void test_build_options(void **state)
 	batten_context_destroy(context);
 }
 
+/* A buffer in memory of our own: what is written to it is there after it has settled. */
+static void test_wrapped_memory(void **state)
+{
+	place *here = *state;
+	batten_context *context = make_context(here->cache, 0);
+	device_session *session = NULL;
+	device_buffer *buffer = NULL;
+	char bytes[64] = { 0 };
+	assert_int_equal(device_session_open(context, 0, &session), BATTEN_OK);
+	const size_t live = device_live_objects(context);
+	assert_int_equal(device_buffer_wrap(session, 0, bytes, &buffer), BATTEN_USAGE);
+	assert_int_equal(device_buffer_wrap(session, 48, bytes + 8, &buffer), BATTEN_OK);
+	assert_int_equal(
+		device_buffer_write(buffer, 48, "a text of less than forty-eight bytes, and zeros"),
+		BATTEN_OK);
+	assert_int_equal(device_buffer_settle(buffer), BATTEN_OK);
+	assert_memory_equal(bytes + 8, "a text of less than forty-eight bytes, and zeros", 48);
+	assert_true(bytes[7] == 0 && bytes[56] == 0);
+	for (unsigned long k = 1; k <= 3; k++) { /* map, unmap, finish */
+		(void)device_fail_call(k);
+		assert_int_equal(device_buffer_settle(buffer), BATTEN_DEVICE);
+		(void)device_fail_call(0);
+	}
+	device_buffer_destroy(buffer);
+	assert_int_equal(device_live_objects(context), live);
+	device_session_close(session);
+	batten_context_destroy(context);
+}
+
 static void test_sizes(void **state)
 {
 	place *here = *state;
@@ -216,11 +245,9 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_two_contexts_at_once), /* first: it starts OpenCL in two threads */
-		cmocka_unit_test(test_two_sessions_at_once),
-		cmocka_unit_test(test_facts),
-		cmocka_unit_test(test_build_failure),
-		cmocka_unit_test(test_build_options),
-		cmocka_unit_test(test_sizes),
+		cmocka_unit_test(test_two_sessions_at_once), cmocka_unit_test(test_facts),
+		cmocka_unit_test(test_build_failure),        cmocka_unit_test(test_build_options),
+		cmocka_unit_test(test_wrapped_memory),       cmocka_unit_test(test_sizes),
 	};
 	return cmocka_run_group_tests(tests, make_place, remove_place);
 }

@@ -76,6 +76,46 @@ static void test_failing_device_gives_back(void **state)
 	surface_case_close(&c);
 }
 
+/* The values of a grid lie in the caller's memory while a device works: one that fails at any call
+ * leaves nothing of its own there, and keeps no object. */
+static void test_failing_device_leaves_the_grid_whole(void **state)
+{
+	(void)state;
+	surface_case c = surface_case_open(3, 3, false);
+	const size_t numbers = surface_case_values(&c, BATTEN_SURFACE_CURVATURE);
+	double *values = calloc(2 * numbers, sizeof *values);
+	assert_non_null(values);
+	c.samples.u = c.u;
+	c.samples.v = c.v;
+	const batten_surface *const *surfaces = (const batten_surface *const *)c.surfaces;
+	batten_surface_batch_options options = surface_case_options(BATTEN_DEVICE_REFERENCE, BATTEN_F32,
+	                                                            BATTEN_SURFACE_CURVATURE);
+	assert_int_equal(batten_surface_grid_batch(c.context, c.count, surfaces, &c.samples, &options,
+	                                           values, NULL, NULL),
+	                 BATTEN_OK);
+	options.device = BATTEN_DEVICE_AUTO;
+	batten_run run;
+	assert_int_equal(batten_surface_grid_batch(c.context, c.count, surfaces, &c.samples, &options,
+	                                           values + numbers, NULL, &run),
+	                 BATTEN_OK);
+	const size_t live = device_live_objects(c.context);
+	size_t warned = 0;
+	for (unsigned long k = 1; k <= 40; k++) {
+		memset(values + numbers, 0xff, numbers * sizeof *values);
+		(void)device_fail_call(k);
+		const batten_status status = batten_surface_grid_batch(
+			c.context, c.count, surfaces, &c.samples, &options, values + numbers, NULL, &run);
+		(void)device_fail_call(0);
+		assert_int_equal(status, BATTEN_OK);
+		assert_memory_equal(values, values + numbers, numbers * sizeof *values);
+		assert_int_equal(device_live_objects(c.context), live);
+		warned += run.warning[0] != '\0';
+	}
+	assert_true(warned >= 20);
+	free(values);
+	surface_case_close(&c);
+}
+
 int main(void)
 {
 	/* Before OpenCL is first opened. */
@@ -84,6 +124,7 @@ int main(void)
 		cmocka_unit_test(test_default_shapes_equal_the_c_path),
 		cmocka_unit_test(test_all_devices),
 		cmocka_unit_test(test_failing_device_gives_back),
+		cmocka_unit_test(test_failing_device_leaves_the_grid_whole),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,6 +16,11 @@ enum {
 	K1,
 	K2,
 	BENDING,
+	DIRECTION1,
+	DIRECTION2 = DIRECTION1 + 3,
+	ALONG = DIRECTION2 + 3,
+	ACROSS,
+	ISOPHOTE,
 	VALUES
 };
 
@@ -27,6 +32,24 @@ typedef struct expected {
 static const size_t derivatives[6][2] = {
 	{ 0, 0 }, { 1, 0 }, { 0, 1 }, { 2, 0 }, { 1, 1 }, { 0, 2 }
 };
+
+/* Of length 7 as given to the library. */
+static const double light[3] = { 2, -3, 6 };
+
+/* Euler's formula: the curvature in a direction from the principal ones. x axis on the tangent plane:
+ * what its product with the principal directions says. */
+static void list_sections(const oracle_forms *forms, long double value[VALUES])
+{
+	long double a = forms->direction[0][0], b = forms->direction[1][0], square = a * a + b * b;
+	value[ALONG] = -(forms->k[0] * a * a + forms->k[1] * b * b) / square;
+	value[ACROSS] = -(forms->k[0] * b * b + forms->k[1] * a * a) / square;
+	value[ISOPHOTE] = 0;
+	for (size_t c = 0; c < 3; c++) {
+		value[DIRECTION1 + c] = forms->direction[0][c];
+		value[DIRECTION2 + c] = forms->direction[1][c];
+		value[ISOPHOTE] -= forms->normal[c] * light[c] / 7;
+	}
+}
 
 /* The library's normal is by_v x by_u: signs turn round, and k1 is the larger. */
 static bool list_values(const oracle_jet jet, long double value[VALUES])
@@ -47,7 +70,20 @@ static bool list_values(const oracle_jet jet, long double value[VALUES])
 	value[K1] = -forms.k[0];
 	value[K2] = -forms.k[1];
 	value[BENDING] = forms.k[0] * forms.k[0] + forms.k[1] * forms.k[1];
+	list_sections(&forms, value);
 	return forms.regular;
+}
+
+/* Either sense of a principal direction is right: takes that of the expected one. */
+static void turn_directions(const long double wanted[VALUES], long double value[VALUES])
+{
+	for (size_t d = DIRECTION1; d <= DIRECTION2; d += 3) {
+		long double along = 0;
+		for (size_t c = 0; c < 3; c++)
+			along += wanted[d + c] * value[d + c];
+		for (size_t c = 0; c < 3 && along < 0; c++)
+			value[d + c] = -value[d + c];
+	}
 }
 
 /* k1 and k2 are made of H and sqrt(H^2 - K), k1^2 + k2^2 is 4 H^2 - 2 K: near umbilics and planes
@@ -62,6 +98,12 @@ static void bound_by_mean_and_gauss(expected *e, long double unit)
 		root = square / spread;
 	e->bound[K1] = e->bound[K2] = e->bound[MEAN] + root + unit * (mean + spread);
 	e->bound[BENDING] = 4 * square;
+	/* components of units, and their parts of both curvatures */
+	for (size_t n = DIRECTION1; n < ALONG; n++)
+		e->bound[n] += unit;
+	e->bound[ALONG] += unit * (mean + spread);
+	e->bound[ACROSS] += unit * (mean + spread);
+	e->bound[ISOPHOTE] += unit;
 }
 
 static void expect(const oracle_surface *surface, double u, double v, long double unit, expected *e)
@@ -78,6 +120,7 @@ static void expect(const oracle_surface *surface, double u, double v, long doubl
 			long double kept = jet[i][j][c], moved[VALUES];
 			jet[i][j][c] += unit * magnitude[i][j][c];
 			(void)list_values(jet, moved);
+			turn_directions(e->value, moved);
 			jet[i][j][c] = kept;
 			for (size_t n = 0; n < VALUES; n++)
 				e->bound[n] += fabsl(moved[n] - e->value[n]);
@@ -86,12 +129,12 @@ static void expect(const oracle_surface *surface, double u, double v, long doubl
 	bound_by_mean_and_gauss(e, unit);
 }
 
-enum { BATCH = 3, ALONG = 5, UP = 4, POINTS = ALONG * UP };
+enum { BATCH = 3, WIDE = 5, UP = 4, POINTS = WIDE * UP };
 
 typedef struct batch {
 	drawn of[BATCH];
 	batten_surface *surfaces[BATCH];
-	double u[ALONG], v[UP];
+	double u[WIDE], v[UP];
 } batch;
 
 static void open_batch(batten_context *context, uint64_t *seed, size_t order_u, size_t order_v,
@@ -109,7 +152,7 @@ static void open_batch(batten_context *context, uint64_t *seed, size_t order_u, 
 		assert_int_equal(batten_surface_create(context, &d->net, &b->surfaces[s]), BATTEN_OK);
 	}
 	const batten_surface_net *net = &b->of[0].net;
-	for (size_t i = 0; i < ALONG; i++)
+	for (size_t i = 0; i < WIDE; i++)
 		b->u[i] = draw_place(seed, order_u, net->count_u, net->knots_u);
 	for (size_t j = 0; j < UP; j++)
 		b->v[j] = draw_place(seed, order_v, net->count_v, net->knots_v);
@@ -128,6 +171,8 @@ static batten_surface_batch_options plain(batten_precision precision)
 	options.device = BATTEN_DEVICE_REFERENCE;
 	options.precision = precision;
 	options.output = BATTEN_SURFACE_EVERYTHING;
+	for (size_t c = 0; c < 3; c++)
+		options.light[c] = light[c];
 	return options;
 }
 
@@ -140,11 +185,17 @@ static size_t compare(const batch *b, size_t s, const double *values, const uint
 	size_t known = 0;
 	for (size_t p = 0; p < POINTS; p++) {
 		expected e;
-		expect(&surface, b->u[p % ALONG], b->v[p / ALONG], unit, &e);
+		expect(&surface, b->u[p % WIDE], b->v[p / WIDE], unit, &e);
 		assert_true(e.regular);
 		assert_int_equal(singular[s * POINTS + p], 0);
+		long double found[VALUES];
 		for (size_t n = 0; n < VALUES; n++)
-			assert_true(fabsl(values[(s * VALUES + n) * POINTS + p] - e.value[n]) <= e.bound[n]);
+			found[n] = values[(s * VALUES + n) * POINTS + p];
+		turn_directions(e.value, found);
+		for (size_t n = 0; n < VALUES; n++)
+			if (!(fabsl(found[n] - e.value[n]) <= e.bound[n]))
+				fail_msg("value %zu: found %.17Lg, expected %.17Lg within %Lg", n, found[n],
+				         e.value[n], e.bound[n]);
 		long double scale = e.value[MEAN] * e.value[MEAN] + fabsl(e.value[GAUSS]);
 		known += e.bound[GAUSS] <= sharp * scale;
 	}
@@ -163,7 +214,7 @@ static void compare_batches(batten_precision precision, uint64_t seed, long doub
 	for (size_t round = 0; round < 2 * 49; round++) {
 		open_batch(context, &seed, 2 + round % 7, 2 + round / 7 % 7, round >= 49, &b);
 		const batten_surface_samples samples = {
-			.u_count = ALONG, .u = b.u, .v_count = UP, .v = b.v
+			.u_count = WIDE, .u = b.u, .v_count = UP, .v = b.v
 		};
 		assert_int_equal(batten_surface_grid_batch(context, BATCH,
 		                                           (const batten_surface *const *)b.surfaces,
