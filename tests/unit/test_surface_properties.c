@@ -327,7 +327,7 @@ static void wigley_wall_side(void **state)
 	memcpy(poles, wigley_poles, sizeof wigley_poles);
 	for (size_t i = 0; i < 6; i++) {
 		memcpy(poles + 27 + 3 * i, wigley_poles + 18 + 3 * (i % 3), 3 * sizeof *poles);
-		poles[27 + 3 * i + 2] = 6.25 + 3.125 * (double)(i / 3 + 1);
+		poles[27 + 3 * i + 2] = i < 3 ? 9.375 : 12.5;
 	}
 	batten_surface_net net = wigley;
 	net.count_v = 5;
@@ -356,7 +356,7 @@ static void wigley_volume_three_ways(void **state)
 	batten_surface *surface = open_surface(context, &wigley);
 	const double node[2] = { 0.5 - sqrt(1.0 / 12), 0.5 + sqrt(1.0 / 12) };
 	double by_x = 0, by_y = 0, by_z = 0, none = 0;
-	for (int i = 0; i < 4; i++) {
+	for (size_t i = 0; i < 4; i++) {
 		const surface_jet j = jet_at(surface, node[i % 2], node[i / 2]);
 		const surface_triple n = triple_outer(j.v, j.u);
 		by_x += 0.25 * 2 * j.at.x * n.x;
