@@ -85,7 +85,8 @@ static void make_searches(test_batch *t, net_plan *plan)
 	uint32_t state = 20011u;
 	for (size_t n = 0; n < poles; n++) {
 		const double u = (double)(n % columns) / (double)(columns - 1);
-		const double v = (double)(n / columns) / (double)(plan->v.poles - 1);
+		const size_t row = n / columns;
+		const double v = (double)row / (double)(plan->v.poles - 1);
 		const bool fixed = n < columns;
 		const double form = 1.0 + u * (1.0 - u) + v * (2.0 - v);
 		for (size_t p = 0; p < plan->count; p++) {

@@ -42,7 +42,7 @@ static void side_release(net_side *side)
 static bool side_basis(size_t order, size_t count, const double *knots, size_t node, long double t,
                        net_side *side)
 {
-	double *poles = calloc(count, sizeof *poles);
+	double *poles = calloc(count + 1, sizeof *poles);
 	const oracle_curve curve = { order, count, 1, knots, poles, NULL };
 	bool ok = poles != NULL;
 	for (size_t i = 0; ok && i < order; i++) {
@@ -67,6 +67,8 @@ static bool side_create(size_t order, size_t count, const double *knots, size_t 
 		spans += knots[s] < knots[s + 1];
 	side->order = order;
 	side->count = spans * nodes;
+	if (side->count == 0)
+		return false;
 	side->first = calloc(side->count, sizeof *side->first);
 	side->basis = oracle_reals(side->count * 3 * order);
 	side->weight = oracle_reals(side->count);
@@ -310,13 +312,15 @@ static long double solve_step(net_newton *n)
 {
 	const size_t poles = n->space.poles;
 	bool sound = false;
-	for (long double extra = 0; !sound; extra = extra > 0 ? 4 * extra : 1e-6L) {
+	long double extra = 0;
+	while (!sound) {
 		for (size_t a = 0; a < n->count; a++)
 			for (size_t b = 0; b < n->count; b++) {
 				const long double here = n->hessian[n->free[a] * poles + n->free[b]];
 				n->factor[a * n->count + b] = a == b ? here + extra * (fabsl(here) + 1) : here;
 			}
 		sound = oracle_cholesky(n->count, n->factor, n->first);
+		extra = extra > 0 ? 4 * extra : 1e-6L;
 	}
 	for (size_t a = 0; a < n->count; a++)
 		n->trial[a] = -n->gradient[n->free[a]];
@@ -340,7 +344,7 @@ static bool go(net_newton *n, long double *objective)
 {
 	const size_t poles = n->space.poles;
 	long double length = 1;
-	for (int halving = 0; halving < 50; halving++, length /= 2) {
+	for (int halving = 0; halving < 50; halving++) {
 		for (size_t k = 0; k < poles; k++)
 			n->trial[k] = kept(n->space.problem, k, n->y[k] + length * n->step[k]);
 		const long double value = objective_at(&n->space, n->trial);
@@ -349,6 +353,7 @@ static bool go(net_newton *n, long double *objective)
 			*objective = value;
 			return true;
 		}
+		length /= 2;
 	}
 	return false;
 }

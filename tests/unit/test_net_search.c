@@ -80,8 +80,9 @@ static void test_variation(void **state)
 	for (int n = 0; n < 13 * 4 * 7 * 4; n++) {
 		const int i = n / 28;
 		const int k = n % 28;
-		const long double u = (i / 4 + (1 + at[i % 4]) / 2) / 13;
-		const long double v = (k / 4 + (1 + at[k % 4]) / 2) / 7;
+		const int span[2] = { i / 4, k / 4 };
+		const long double u = (span[0] + (1 + at[i % 4]) / 2) / 13;
+		const long double v = (span[1] + (1 + at[k % 4]) / 2) / 7;
 		oracle_jet jet;
 		oracle_forms forms;
 		assert_true(oracle_surface_at(&c.exact, u, v, jet));
@@ -221,7 +222,8 @@ static void test_scale(void **state)
 		batten_search_result results[2] = { 0 };
 		double *y = calloc(2 * c.poles, sizeof *y);
 		double *bounds = calloc(2 * c.poles, sizeof *bounds);
-		assert_true(y && bounds);
+		assert_non_null(y);
+		assert_non_null(bounds);
 		options.fairness = (batten_fairness)f;
 		assert_int_equal(batten_surface_clone(c.context, c.surface, &large), BATTEN_OK);
 		assert_int_equal(batten_surface_map(large, matrix, shift), BATTEN_OK);
