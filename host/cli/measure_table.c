@@ -195,7 +195,7 @@ static batten_status put_areas(struct maker *m, const char *height_name, size_t 
                                const double *x, const double *heights)
 {
 	const char *columns[] = { height_name, "x_m", "section_area_m2" };
-	m->values = malloc(3 * count * sizeof *m->values);
+	m->values = malloc((3 * count + 1) * sizeof *m->values);
 	if (!m->values)
 		return no_memory();
 	for (size_t i = 0; i < count; i++) {

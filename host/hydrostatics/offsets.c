@@ -78,12 +78,13 @@ batten_status batten_hull_section_areas(batten_context *context, const batten_hu
 	if (status != BATTEN_OK)
 		return status;
 	const size_t stations = hull->station_count;
-	double *made = NULL;
 	size_t places = 0;
-	if (!batten_size_multiply(count, stations, &places))
-		status = batten_fail_memory(context);
-	else if (!(made = batten_allocate(context, places, sizeof *made)))
-		status = BATTEN_MEMORY;
+	const bool fits = batten_size_multiply(count, stations, &places);
+	double *made = batten_allocate(context, fits ? places : SIZE_MAX, sizeof *made);
+	if (!made) {
+		hydrostatics_sections_destroy(context, &form.sections);
+		return BATTEN_MEMORY;
+	}
 	for (size_t k = 0; k < count && status == BATTEN_OK; k++) {
 		status = quantities_check_draft(context, body.lowest_m, body.highest_m, heights_m[k]);
 		for (size_t i = 0; i < stations && status == BATTEN_OK; i++) {
