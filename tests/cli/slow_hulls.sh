@@ -72,7 +72,9 @@ for name in npl_parent bsra_trawler highspeed_craft wigley wigley_noisy; do
 	[ "$(grep -c '' after)" -ge 37 ] || fail "$name: $(grep -c '' after) measures"
 	for pair in "before:$hull" "after:$name/faired.csv"; do
 		expect 0 measure "${pair#*:}" --json
-		measures "$out" >measured
+		# measure tells more of the hydrostatics than a report of fairing does.
+		measures "$out" >all
+		awk 'NR == FNR { known[$1]; next } $1 in known' "${pair%%:*}" all >measured
 		cmp -s "${pair%%:*}" measured || fail "$name: ${pair%%:*} in the report is not what is measured:
 $(diff "${pair%%:*}" measured | head -n 6)"
 	done
