@@ -21,7 +21,7 @@ measures()
 		object == "" || inside {
 			sub(/,$/, "")
 			gsub(/[": ]+/, " ")
-			if ($1 !~ /^(cn_.*|closeness_m4|name|frame|quadrature|[{}])$/) print $1, $2
+			if ($1 !~ /^(cn_.*|closeness_m4|name|frame|quadrature|[{}])$/ && NF == 2) print $1, $2
 		}' "$1"
 }
 
