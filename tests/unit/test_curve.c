@@ -164,8 +164,7 @@ static void twisted_cubic(void **state)
 	batten_curve_destroy(curve);
 }
 
-/* Curvature, its rate and torsion by differences of points along the arc, in long double: of the
- * curve through scaled samples of a helix by Newton's form. */
+/* Newton's form through samples of a helix, whose curvature and torsion are constant. */
 static void helix(void **state)
 {
 	enum { COUNT = 14 };
