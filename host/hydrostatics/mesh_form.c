@@ -260,13 +260,8 @@ static batten_status calculate(const floating_body *body, double draft_m, hydros
 	const mesh_arrays *mesh = body->form;
 	hydrostatics made;
 	mesh_integrate(mesh, draft_m, &made);
-	const double amidships = 0.5 * body->lbp_m;
-	bool there = amidships >= mesh->aftmost_m && amidships <= mesh->foremost_m;
-	made.midship_area_m2 = there ? mesh_section_area(mesh, amidships, draft_m) : NAN;
-	batten_status status = quantities_largest_section(section_of, mesh, draft_m, mesh->aftmost_m,
-	                                                  mesh->foremost_m, &made.max_section_area_m2);
-	if (there)
-		made.max_section_area_m2 = fmax(made.max_section_area_m2, made.midship_area_m2);
+	batten_status status = quantities_main_sections(body, section_of, draft_m, mesh->aftmost_m,
+	                                                mesh->foremost_m, &made);
 	if (status == BATTEN_OK)
 		*out = made;
 	return status;
@@ -282,19 +277,12 @@ static batten_status open_form(batten_context *context, const batten_mesh *mesh,
 	const mesh_arrays *arrays = &mesh->arrays;
 	*body = (floating_body){ .context = context,
 		                     .form = arrays,
-		                     .lbp_m = chosen->lbp_m > 0 ? chosen->lbp_m : arrays->foremost_m,
 		                     .half_beam_m = mesh->half_beam_m,
 		                     .lowest_m = arrays->lowest_m,
 		                     .highest_m = arrays->highest_m,
 		                     .calculate = calculate,
 		                     .float_at = float_at };
-	if (!(body->lbp_m > 0))
-		return batten_fail(
-			context, BATTEN_USAGE,
-			"a mesh that ends at x = %g m, not before the aft perpendicular: its lbp "
-			"was expected",
-			body->lbp_m);
-	return BATTEN_OK;
+	return quantities_length(context, "mesh", chosen, arrays->foremost_m, &body->lbp_m);
 }
 
 batten_status batten_mesh_hydrostatics(batten_context *context, const batten_mesh *mesh,

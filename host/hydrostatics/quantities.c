@@ -67,6 +67,19 @@ batten_status quantities_options(batten_context *context,
 	return BATTEN_OK;
 }
 
+batten_status quantities_length(batten_context *context, const char *what,
+                                const batten_hydrostatics_options *options, double foremost_m,
+                                double *lbp_m)
+{
+	*lbp_m = options->lbp_m > 0 ? options->lbp_m : foremost_m;
+	if (*lbp_m > 0)
+		return BATTEN_OK;
+	return batten_fail(context, BATTEN_USAGE,
+	                   "a %s that ends at x = %g m, not before the aft perpendicular: its lbp was "
+	                   "expected",
+	                   what, *lbp_m);
+}
+
 batten_status quantities_check_draft(batten_context *context, double lowest_m, double highest_m,
                                      double draft_m)
 {
@@ -232,9 +245,8 @@ batten_status quantities_sections(const floating_body *body, quantities_section 
 	return status;
 }
 
-batten_status quantities_largest_section(quantities_section *section, const void *form,
-                                         double draft_m, double aft_m, double fore_m,
-                                         double *area_m2)
+static batten_status largest_section(quantities_section *section, const void *form, double draft_m,
+                                     double aft_m, double fore_m, double *area_m2)
 {
 	enum { PARTS = 16, TURNS = 24 };
 	const double golden = 0.61803398874989484820, step = (fore_m - aft_m) / PARTS;
@@ -262,4 +274,24 @@ batten_status quantities_largest_section(quantities_section *section, const void
 	if (status == BATTEN_OK)
 		*area_m2 = largest;
 	return status;
+}
+
+batten_status quantities_main_sections(const floating_body *body, quantities_section *section,
+                                       double draft_m, double aft_m, double fore_m,
+                                       hydrostatics *out)
+{
+	const double amidships = 0.5 * body->lbp_m;
+	const bool there = amidships >= aft_m && amidships <= fore_m;
+	double midship = NAN;
+	double largest = 0;
+	batten_status status = BATTEN_OK;
+	if (there)
+		status = section(body->form, amidships, draft_m, &midship);
+	if (status == BATTEN_OK)
+		status = largest_section(section, body->form, draft_m, aft_m, fore_m, &largest);
+	if (status != BATTEN_OK)
+		return status;
+	out->midship_area_m2 = midship;
+	out->max_section_area_m2 = there ? fmax(largest, midship) : largest;
+	return BATTEN_OK;
 }

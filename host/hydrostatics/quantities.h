@@ -20,6 +20,12 @@ batten_status quantities_options(batten_context *context,
                                  const batten_hydrostatics_options *options,
                                  batten_hydrostatics_options *out);
 
+/* The length of a form that states none: as asked for, else up to its foremost point. what names the
+ * form. Errors: USAGE (that point is not before the aft perpendicular). */
+batten_status quantities_length(batten_context *context, const char *what,
+                                const batten_hydrostatics_options *options, double foremost_m,
+                                double *lbp_m);
+
 /* A draft within the table, from lowest (left out) to highest. Errors: USAGE. */
 batten_status quantities_check_draft(batten_context *context, double lowest_m, double highest_m,
                                      double draft_m);
@@ -46,9 +52,10 @@ batten_status quantities_sections(const floating_body *body, quantities_section 
                                   size_t section_count, const double *x_m, size_t height_count,
                                   const double *heights_m, double *areas_m2);
 
-/* The largest section between two places: a grid of them, then the golden section. */
-batten_status quantities_largest_section(quantities_section *section, const void *form,
-                                         double draft_m, double aft_m, double fore_m,
-                                         double *area_m2);
+/* The sections amidships (NaN where the hull is not there) and the largest, of a hull that reaches from
+ * aft to fore: a grid of them, then the golden section. */
+batten_status quantities_main_sections(const floating_body *body, quantities_section *section,
+                                       double draft_m, double aft_m, double fore_m,
+                                       hydrostatics *out);
 
 #endif

@@ -26,13 +26,8 @@ static batten_status calculate(const floating_body *body, double draft_m, hydros
 	hydrostatics made = { 0 };
 	patch_integrate(patch, draft_m, &made);
 	patch_waterline(patch, draft_m, &made);
-	const double amidships = 0.5 * body->lbp_m;
-	bool there = amidships >= patch->aftmost_m && amidships <= patch->foremost_m;
-	made.midship_area_m2 = there ? patch_section_area(patch, amidships, draft_m) : NAN;
-	batten_status status = quantities_largest_section(section_of, patch, draft_m, patch->aftmost_m,
-	                                                  patch->foremost_m, &made.max_section_area_m2);
-	if (there)
-		made.max_section_area_m2 = fmax(made.max_section_area_m2, made.midship_area_m2);
+	batten_status status = quantities_main_sections(body, section_of, draft_m, patch->aftmost_m,
+	                                                patch->foremost_m, &made);
 	if (status == BATTEN_OK)
 		*out = made;
 	return status;
@@ -51,19 +46,15 @@ static batten_status open_form(batten_context *context, const batten_surface *su
 		return status;
 	*body = (floating_body){ .context = context,
 		                     .form = patch,
-		                     .lbp_m = chosen->lbp_m > 0 ? chosen->lbp_m : patch->foremost_m,
 		                     .half_beam_m = patch->half_beam_m,
 		                     .lowest_m = patch->lowest_m,
 		                     .highest_m = patch->highest_m,
 		                     .calculate = calculate,
 		                     .float_at = float_at };
-	if (body->lbp_m > 0)
-		return BATTEN_OK;
-	patch_destroy(patch);
-	return batten_fail(context, BATTEN_USAGE,
-	                   "a surface that ends at x = %g m, not before the aft perpendicular: its lbp "
-	                   "was expected",
-	                   body->lbp_m);
+	status = quantities_length(context, "surface", chosen, patch->foremost_m, &body->lbp_m);
+	if (status != BATTEN_OK)
+		patch_destroy(patch);
+	return status;
 }
 
 batten_status batten_surface_hydrostatics(batten_context *context, const batten_surface *surface,
