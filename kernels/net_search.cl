@@ -17,7 +17,8 @@
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/net_energy.h"
-/* The objective first: the driver calls it. */
+/* The objective first, then the pattern move: the driver calls them. */
+#include "shared/search_ways.h"
 #include "shared/search_driver.h"
 
 /* shape: NET_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE numbers a sample along u, then along v. samples

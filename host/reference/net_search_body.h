@@ -13,7 +13,8 @@
 #define NET_ORDER_U (s->order_u)
 #define NET_ORDER_V (s->order_v)
 #include "shared/net_energy.h"
-/* The objective first: the driver calls it. */
+/* The objective first, then the pattern move: the driver calls them. */
+#include "shared/search_ways.h"
 #include "shared/search_driver.h"
 
 INLINED void work_search(const reference_net_search *shared, const scalar *tables,

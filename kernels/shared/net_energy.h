@@ -198,7 +198,7 @@ SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real 
 }
 
 /* ------------------------------------------------------------------------------------------------
- * What search_driver.h asks for
+ * What search_moves.h asks for
  * --------------------------------------------------------------------------------------------- */
 
 SHARED_FUNCTION void colour_range(const search_state *s, int colour, int *first, int *end)
