@@ -11,7 +11,8 @@
 static void *allocate(size_t size, void *user)
 {
 	failing_heap *heap = user;
-	if (atomic_fetch_add(&heap->count, 1) + 1 == heap->fail_at)
+	const size_t number = atomic_fetch_add(&heap->count, 1) + 1;
+	if (number == heap->fail_at || (heap->fail_on && number > heap->fail_at))
 		return NULL;
 	void *memory = malloc(size);
 	if (memory)
@@ -39,22 +40,30 @@ batten_context *failing_heap_context(failing_heap *heap)
 	return context;
 }
 
+static batten_status call_short(failing_heap *heap, batten_context *context, failing_heap_call call,
+                                void *user)
+{
+	const size_t before = heap->live;
+	heap->count = 0;
+	const batten_status status = call(context, user);
+	assert_int_equal(heap->live, before);
+	assert_int_equal(status, heap->count >= heap->fail_at ? BATTEN_MEMORY : BATTEN_OK);
+	if (status == BATTEN_MEMORY)
+		assert_non_null(strstr(batten_context_error(context), "out of memory"));
+	return status;
+}
+
 size_t failing_heap_each(failing_heap *heap, batten_context *context, failing_heap_call call,
                          void *user)
 {
-	const size_t before = heap->live;
-	size_t failed = 0;
-	for (;; failed++) {
-		heap->count = 0;
-		heap->fail_at = failed + 1;
-		const batten_status status = call(context, user);
-		heap->fail_at = 0;
-		assert_int_equal(heap->live, before);
-		if (status == BATTEN_OK)
-			return failed;
-		assert_int_equal(status, BATTEN_MEMORY);
-		assert_non_null(strstr(batten_context_error(context), "out of memory"));
+	for (heap->fail_at = 1; call_short(heap, context, call, user) != BATTEN_OK; heap->fail_at++) {
+		heap->fail_on = true;
+		assert_int_equal(call_short(heap, context, call, user), BATTEN_MEMORY);
+		heap->fail_on = false;
 	}
+	const size_t failed = heap->fail_at - 1;
+	heap->fail_at = 0;
+	return failed;
 }
 
 void failing_heap_close(failing_heap *heap, batten_context *context)

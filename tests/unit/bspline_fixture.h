@@ -1,5 +1,4 @@
-/* What the tests of B-splines share: a context, seeded random curves and surfaces, a heap that fails
- * where it is told to. */
+/* What the tests of B-splines share: a context, seeded random curves and surfaces. */
 #ifndef BATTEN_TESTS_BSPLINE_FIXTURE_H
 #define BATTEN_TESTS_BSPLINE_FIXTURE_H
 
@@ -11,7 +10,6 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -217,43 +215,6 @@ static inline batten_surface *clone_of(const batten_surface *surface)
 	batten_surface *clone;
 	assert_int_equal(batten_surface_clone(surface->context, surface, &clone), BATTEN_OK);
 	return clone;
-}
-
-/* ------------------------------------------------------------------------------------------------
- * Memory that runs out
- * --------------------------------------------------------------------------------------------- */
-
-struct failing_heap {
-	size_t live, count, fail_at; /* number of the allocation that fails, from 1; 0 for none */
-};
-
-static inline void *failing_allocate(size_t size, void *user)
-{
-	struct failing_heap *heap = user;
-	if (++heap->count == heap->fail_at)
-		return NULL;
-	void *memory = malloc(size);
-	heap->live += memory != NULL;
-	return memory;
-}
-
-static inline void failing_release(void *memory, void *user)
-{
-	struct failing_heap *heap = user;
-	heap->live--;
-	free(memory);
-}
-
-static inline batten_context *failing_context(struct failing_heap *heap)
-{
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = failing_allocate;
-	options.release = failing_release;
-	options.allocate_user = heap;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
-	return context;
 }
 
 #endif

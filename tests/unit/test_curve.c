@@ -2,6 +2,7 @@
 #include "bspline_fixture.h"
 #include "geometry/curve.h"
 #include "oracle/oracle.h"
+#include "support/failing_heap.h"
 
 #define PI 3.14159265358979323846
 
@@ -496,64 +497,32 @@ static void refusals(void **state)
  * Memory
  * --------------------------------------------------------------------------------------------- */
 
-struct heap {
-	size_t made, fail_at, alive;
-};
-
-static void *heap_allocate(size_t size, void *user)
+static batten_status parse_and_measure(batten_context *context, void *user)
 {
-	struct heap *heap = user;
-	if (heap->made++ == heap->fail_at)
-		return NULL;
-	heap->alive++;
-	return malloc(size);
-}
-
-static void heap_release(void *memory, void *user)
-{
-	((struct heap *)user)->alive--;
-	free(memory);
+	static const char text[] = "# name: line\nx,y\n0,0\n1,1\n2,0\n3,2\n4,1\n";
+	batten_points *points = NULL;
+	batten_curve *curve = NULL;
+	batten_curve_measures measures;
+	batten_status status = batten_points_parse(context, "line.csv", text, sizeof text - 1, &points);
+	if (status == BATTEN_OK)
+		status = batten_curve_create(context, points, user, &curve);
+	if (status == BATTEN_OK)
+		status = batten_curve_measure(context, curve, &measures);
+	batten_curve_destroy(curve);
+	batten_points_destroy(points);
+	return status;
 }
 
 static void memory_runs_out(void **state)
 {
 	(void)state;
-	struct heap heap = { .fail_at = SIZE_MAX };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = heap_allocate;
-	options.release = heap_release;
-	options.allocate_user = &heap;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
-	static const char text[] = "# name: line\nx,y\n0,0\n1,1\n2,0\n3,2\n4,1\n";
-	size_t before = heap.alive;
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	for (int form = 0; form <= BATTEN_CURVE_BSPLINE_FIT; form++) {
 		batten_curve_options chosen = options_of((batten_curve_form)form, BATTEN_PARAMETER_CHORD);
-		for (size_t k = 0;; k++) {
-			batten_points *points = NULL;
-			batten_curve *curve = NULL;
-			batten_curve_measures measures;
-			heap.made = 0;
-			heap.fail_at = k;
-			batten_status status = batten_points_parse(context, "line.csv", text, sizeof text - 1,
-			                                           &points);
-			if (status == BATTEN_OK)
-				status = batten_curve_create(context, points, &chosen, &curve);
-			if (status == BATTEN_OK)
-				status = batten_curve_measure(context, curve, &measures);
-			heap.fail_at = SIZE_MAX;
-			batten_curve_destroy(curve);
-			batten_points_destroy(points);
-			assert_int_equal(heap.alive, before);
-			if (status == BATTEN_OK) {
-				assert_true(k >= 8);
-				break;
-			}
-			assert_int_equal(status, BATTEN_MEMORY);
-		}
+		assert_true(failing_heap_each(&heap, context, parse_and_measure, &chosen) >= 8);
 	}
-	batten_context_destroy(context);
+	failing_heap_close(&heap, context);
 }
 
 #define CURVE_TEST(name) cmocka_unit_test_setup_teardown(name, make_context, end_context)

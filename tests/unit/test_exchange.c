@@ -1,5 +1,6 @@
 /* Surfaces in IGES and STEP: every number comes back, units are converted, and what is damaged or no
  * B-spline surface is refused by name. */
+#include "support/failing_heap.h"
 #include "surface_fixture.h"
 
 #include <fcntl.h>
@@ -445,57 +446,44 @@ static void test_damage(void **state)
 	damage(*state, "damaged.step", 2);
 }
 
-static size_t allocations_left;
+struct passage {
+	const batten_surface *surface;
+	const char *path;
+};
 
-static void *allocate_few(size_t size, void *user)
+static batten_status write_once(batten_context *context, void *user)
 {
-	(void)user;
-	if (allocations_left == 0)
-		return NULL;
-	allocations_left--;
-	return malloc(size);
+	const struct passage *p = user;
+	const batten_status status = batten_surfaces_write(context, 1, &p->surface, p->path);
+	assert_int_equal(access(p->path, F_OK) == 0, status == BATTEN_OK);
+	return status;
 }
 
-static void release_few(void *memory, void *user)
+static batten_status read_once(batten_context *context, void *user)
 {
-	(void)user;
-	free(memory);
+	const struct passage *p = user;
+	batten_surfaces *list = NULL;
+	const batten_status status = batten_surfaces_read(context, p->path, &list);
+	assert_int_equal(list != NULL, status == BATTEN_OK);
+	batten_surfaces_destroy(list);
+	return status;
 }
 
 /* Every allocation of a reading and a writing fails once. */
 static void test_memory(void **state)
 {
 	fixture *f = *state;
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = allocate_few;
-	options.release = release_few;
-	batten_context *context = NULL;
-	allocations_left = 1000;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
-	const batten_surface *surface = make_one(f, "one", 2, 0);
-	const char *path = path_of(f, "memory.igs");
-	batten_status status = BATTEN_MEMORY;
-	for (size_t few = 0; status == BATTEN_MEMORY; few++) {
-		assert_true(few < 100);
-		allocations_left = few;
-		status = batten_surfaces_write(context, 1, &surface, path);
-		assert_true(status == BATTEN_OK || access(path, F_OK) != 0);
-	}
-	assert_int_equal(status, BATTEN_OK);
-	status = BATTEN_MEMORY;
-	batten_surfaces *list = NULL;
-	for (size_t few = 0; status == BATTEN_MEMORY; few++) {
-		assert_true(few < 100);
-		allocations_left = few;
-		status = batten_surfaces_read(context, path, &list);
-		assert_true((status == BATTEN_OK) == (list != NULL));
-	}
-	assert_int_equal(status, BATTEN_OK);
-	batten_surfaces_destroy(list);
-	batten_context_destroy(context);
-	batten_surface_destroy((batten_surface *)surface);
-	assert_int_equal(unlink(path), 0);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
+	batten_surface *surface = make_one(f, "one", 2, 0);
+	struct passage passage = { surface, path_of(f, "memory.igs") };
+	const size_t written = failing_heap_each(&heap, context, write_once, &passage);
+	assert_true(written > 0 && written < 100);
+	const size_t read = failing_heap_each(&heap, context, read_once, &passage);
+	assert_true(read > 0 && read < 100);
+	failing_heap_close(&heap, context);
+	batten_surface_destroy(surface);
+	assert_int_equal(unlink(passage.path), 0);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_fixture, end_fixture)

@@ -1,4 +1,5 @@
 /* Fits of hulls with knuckle lines, and of tables that do not determine the net. */
+#include "support/failing_heap.h"
 #include "unit/fit_fixture.h"
 
 /* Chine height over the baseline at x. */
@@ -225,50 +226,26 @@ static void test_free_poles(void **state)
 	batten_hull_destroy(hull);
 }
 
-/* Memory that runs out at the n-th request. */
-static void *take(size_t size, void *user)
+static batten_status fit_once(batten_context *context, void *user)
 {
-	size_t *left = user;
-	if (*left == 0)
-		return NULL;
-	(*left)--;
-	return malloc(size);
-}
-
-static void give(void *memory, void *user)
-{
-	(void)user;
-	free(memory);
+	batten_fit_options options = net(6, 9, 4);
+	options.correction_limit = 0;
+	batten_surface *surface = NULL;
+	const batten_status status = batten_hull_fit(context, user, &options, &surface, NULL);
+	assert_int_equal(surface != NULL, status == BATTEN_OK);
+	batten_surface_destroy(surface);
+	return status;
 }
 
 static void test_memory(void **state)
 {
 	(void)state;
-	size_t left = SIZE_MAX;
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = take;
-	options.release = give;
-	options.allocate_user = &left;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	batten_hull *hull = chine_hull(context, rising, true);
-	batten_fit_options fit_options = net(6, 9, 4);
-	fit_options.correction_limit = 0;
-	const size_t before = left;
-	batten_surface_destroy(fit(context, hull, &fit_options, NULL));
-	const size_t needed = before - left;
-	assert_true(needed > 20);
-	for (size_t n = 0; n < needed; n++) {
-		batten_surface *surface = NULL;
-		left = n;
-		assert_int_equal(batten_hull_fit(context, hull, &fit_options, &surface, NULL),
-		                 BATTEN_MEMORY);
-		assert_null(surface);
-	}
-	left = SIZE_MAX;
+	assert_true(failing_heap_each(&heap, context, fit_once, hull) > 20);
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

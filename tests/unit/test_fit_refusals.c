@@ -1,4 +1,5 @@
 /* What no surface is fitted to, and memory that runs out. */
+#include "support/failing_heap.h"
 #include "unit/fit_fixture.h"
 
 /* Round at keel, stem and stern alike: an ellipsoid's half below its widest waterline. */
@@ -105,56 +106,26 @@ static void test_strange_hulls(void **state)
 	batten_hull_destroy(round);
 }
 
-/* Memory that runs out at the n-th request. */
-struct purse {
-	size_t left, requests;
-};
-
-static void *take(size_t size, void *user)
+static batten_status fit_once(batten_context *context, void *user)
 {
-	struct purse *purse = user;
-	purse->requests++;
-	if (purse->left == 0)
-		return NULL;
-	purse->left--;
-	return malloc(size);
-}
-
-static void give(void *memory, void *user)
-{
-	(void)user;
-	free(memory);
+	batten_fit_options options = net(8, 7, 4);
+	options.correction_limit = 1;
+	batten_surface *surface = NULL;
+	const batten_status status = batten_hull_fit(context, user, &options, &surface, NULL);
+	assert_int_equal(surface != NULL, status == BATTEN_OK);
+	batten_surface_destroy(surface);
+	return status;
 }
 
 static void test_memory(void **state)
 {
 	(void)state;
-	struct purse purse = { SIZE_MAX, 0 };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = take;
-	options.release = give;
-	options.allocate_user = &purse;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	batten_hull *hull = read_hull(context, "highspeed_craft");
-	batten_fit_options fit_options = net(8, 7, 4);
-	fit_options.correction_limit = 1;
-	purse.requests = 0;
-	batten_surface_destroy(fit(context, hull, &fit_options, NULL));
-	const size_t needed = purse.requests;
-	assert_true(needed > 20);
-	for (size_t n = 0; n < needed; n++) {
-		batten_surface *surface = NULL;
-		purse.left = n;
-		assert_int_equal(batten_hull_fit(context, hull, &fit_options, &surface, NULL),
-		                 BATTEN_MEMORY);
-		assert_null(surface);
-	}
-	purse.left = SIZE_MAX;
-	batten_surface_destroy(fit(context, hull, &fit_options, NULL));
+	assert_true(failing_heap_each(&heap, context, fit_once, hull) > 20);
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

@@ -1,6 +1,7 @@
 /* Derivatives and curvatures of offset tables against closed forms; which nodes have one. */
 #include "geometry/grid_curvature.h"
 #include "hull/hull.h"
+#include "support/failing_heap.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -220,60 +221,25 @@ static void small_tables_have_none(void **state)
 	batten_hull_destroy(hull);
 }
 
-/* An allocator that fails one request and counts what is not released. */
-typedef struct counter {
-	size_t made, fail_at, alive;
-} counter;
-
-static void *count_allocate(size_t size, void *user)
+static batten_status create_once(batten_context *context, void *user)
 {
-	counter *count = user;
-	if (count->made++ == count->fail_at)
-		return NULL;
-	count->alive++;
-	return malloc(size);
-}
-
-static void count_release(void *memory, void *user)
-{
-	counter *count = user;
-	count->alive--;
-	free(memory);
+	grid_curvature *grid = NULL;
+	const batten_status status = grid_curvature_create(context, user, &grid);
+	assert_int_equal(grid != NULL, status == BATTEN_OK);
+	grid_curvature_destroy(context, grid);
+	return status;
 }
 
 static void every_allocation_may_fail(void **state)
 {
 	(void)state;
-	counter count = { .fail_at = SIZE_MAX };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = count_allocate;
-	options.release = count_release;
-	options.allocate_user = &count;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	double y[NODES] = { 0 };
 	batten_hull *hull = make(context, STATIONS, WATERLINES, stations, waterlines, y, NULL);
-	size_t before = count.alive;
-	size_t failed = 0;
-	for (;; failed++) {
-		grid_curvature *grid = NULL;
-		count.made = 0;
-		count.fail_at = failed;
-		batten_status status = grid_curvature_create(context, hull, &grid);
-		if (status == BATTEN_OK) {
-			grid_curvature_destroy(context, grid);
-			break;
-		}
-		assert_int_equal(status, BATTEN_MEMORY);
-		assert_null(grid);
-		assert_int_equal(count.alive, before);
-	}
-	assert_int_equal(count.alive, before);
-	assert_true(failed >= 5);
+	assert_true(failing_heap_each(&heap, context, create_once, hull) >= 5);
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
-	assert_int_equal(count.alive, 0);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 /* Hydrostatics over drafts from offsets; offsets, surfaces and meshes against each other; lack
  * of memory. */
+#include "support/failing_heap.h"
 #include "unit/hydrostatics_fixture.h"
 
 static double wigley(double x, double z)
@@ -315,37 +316,24 @@ static void ellipsoid_by_mesh_and_surface(void **state)
  * Memory
  * --------------------------------------------------------------------------------------------- */
 
-/* An allocator that gives memory a number of times. */
-struct stingy {
-	size_t left, held;
+struct numbered_call {
+	int number;
+	const batten_hull *hull;
+	const batten_surface *surface;
+	const batten_mesh_table *table;
 };
 
-static void *allocate_stingily(size_t size, void *user)
+static batten_status call_number(batten_context *context, void *user)
 {
-	struct stingy *stingy = user;
-	if (stingy->left == 0)
-		return NULL;
-	stingy->left--;
-	stingy->held++;
-	return malloc(size);
-}
-
-static void release_counted(void *memory, void *user)
-{
-	struct stingy *stingy = user;
-	stingy->held -= memory != NULL;
-	free(memory);
-}
-
-static batten_status call_number(int call, batten_context *context, const batten_hull *hull,
-                                 const batten_surface *surface, const batten_mesh_table *table)
-{
+	const struct numbered_call *call = user;
+	const batten_hull *hull = call->hull;
+	const batten_surface *surface = call->surface;
 	const double drafts[] = { 2, 4 }, x[] = { 20, 50 };
 	batten_hydrostatics rows[2];
 	double areas[16], more[16], draft;
 	size_t count;
 	batten_mesh *mesh = NULL;
-	switch (call) {
+	switch (call->number) {
 	case 0:
 		return batten_hull_hydrostatics(context, hull, NULL, 2, drafts, rows);
 	case 1:
@@ -363,7 +351,7 @@ static batten_status call_number(int call, batten_context *context, const batten
 	default:
 		break;
 	}
-	batten_status status = batten_mesh_create(context, table, &mesh);
+	batten_status status = batten_mesh_create(context, call->table, &mesh);
 	if (status == BATTEN_OK)
 		status = batten_mesh_hydrostatics(context, mesh, NULL, 2, drafts, rows);
 	if (status == BATTEN_OK)
@@ -376,37 +364,19 @@ static batten_status call_number(int call, batten_context *context, const batten
 static void out_of_memory(void **state)
 {
 	(void)state;
-	struct stingy stingy = { .left = 1000000 };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = allocate_stingily;
-	options.release = release_counted;
-	options.allocate_user = &stingy;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	batten_hull *hull = make_hull(context, wigley, 100, 6.25, 7, 6);
 	batten_surface *surface = wigley_surface(context, 100, 10, 6.25);
 	const double vertices[12] = { 0, 0, 0, 90, 0, 0, 0, 9, 5, 90, 9, 5 };
 	const uint32_t triangles[6] = { 0, 2, 3, 0, 3, 1 };
 	const batten_mesh_table table = { 4, 2, vertices, triangles, true };
-	size_t held = stingy.held;
-	for (int call = 0; call < 8; call++) {
-		size_t failures = 0;
-		batten_status status = BATTEN_MEMORY;
-		for (size_t given = 0; status != BATTEN_OK; given++) {
-			stingy.left = given;
-			status = call_number(call, context, hull, surface, &table);
-			assert_true(status == BATTEN_OK || status == BATTEN_MEMORY);
-			assert_int_equal(stingy.held, held);
-			failures += status != BATTEN_OK;
-		}
-		assert_true(failures > 2);
-	}
-	stingy.left = 10;
+	struct numbered_call call = { 0, hull, surface, &table };
+	for (; call.number < 8; call.number++)
+		assert_true(failing_heap_each(&heap, context, call_number, &call) > 2);
 	batten_surface_destroy(surface);
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
-	assert_int_equal(stingy.held, 0);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

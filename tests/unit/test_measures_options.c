@@ -1,4 +1,5 @@
 /* Names, options and errors of the measures, what does not exist, closeness, lack of memory. */
+#include "support/failing_heap.h"
 #include "unit/measures_fixture.h"
 
 static const batten_quadrature spline = BATTEN_QUADRATURE_SPLINE;
@@ -130,61 +131,34 @@ static void closeness(void **state)
 	batten_context_destroy(context);
 }
 
-/* An allocator that gives memory a number of times. */
-struct stingy {
-	size_t left, held;
-};
-
-static void *allocate_stingily(size_t size, void *user)
+static batten_status measure_once(batten_context *context, void *user)
 {
-	struct stingy *stingy = user;
-	if (stingy->left == 0)
-		return NULL;
-	stingy->left--;
-	stingy->held++;
-	return malloc(size);
+	batten_measures m = { .lbp_m = -1 };
+	const batten_status status = batten_hull_measure(context, user, NULL, &m);
+	assert_true(status == BATTEN_OK || m.lbp_m == -1);
+	return status;
 }
 
-static void release_counted(void *memory, void *user)
+static batten_status cut_once(batten_context *context, void *user)
 {
-	struct stingy *stingy = user;
-	stingy->held -= memory != NULL;
-	free(memory);
+	batten_line lines[64];
+	size_t count = 0;
+	const batten_status status = batten_hull_lines(context, user, user, lines, 64, &count);
+	assert_true(status == BATTEN_OK || count == 0);
+	return status;
 }
 
 /* Whichever allocation fails, the call says so, keeps nothing and leaves its result alone. */
 static void out_of_memory(void **state)
 {
 	(void)state;
-	struct stingy stingy = { .left = 1000000 };
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.allocate = allocate_stingily;
-	options.release = release_counted;
-	options.allocate_user = &stingy;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	batten_hull *hull = make_hull(context, wigley, 100, 6.25, 7, 6);
-	batten_line lines[64];
-	size_t held = stingy.held, failures = 0, count = 0;
-	batten_status measured = BATTEN_MEMORY, cut = BATTEN_MEMORY;
-	for (size_t given = 0; measured != BATTEN_OK || cut != BATTEN_OK; given++) {
-		batten_measures m = { .lbp_m = -1 };
-		stingy.left = given;
-		measured = batten_hull_measure(context, hull, NULL, &m);
-		assert_true(measured == BATTEN_OK || (measured == BATTEN_MEMORY && m.lbp_m == -1));
-		assert_int_equal(stingy.held, held);
-		stingy.left = given;
-		cut = batten_hull_lines(context, hull, hull, lines, 64, &count);
-		assert_true(cut == BATTEN_OK || (cut == BATTEN_MEMORY && count == 0));
-		assert_int_equal(stingy.held, held);
-		failures += measured != BATTEN_OK;
-	}
-	assert_true(failures > 100);
-	stingy.left = 10;
+	assert_true(failing_heap_each(&heap, context, measure_once, hull) > 100);
+	assert_true(failing_heap_each(&heap, context, cut_once, hull) > 0);
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
-	assert_int_equal(stingy.held, 0);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)

@@ -1,4 +1,5 @@
 /* What variation refuses, many rows of which some fail, and memory that runs out. */
+#include "support/failing_heap.h"
 #include "unit/vary_fixture.h"
 
 static void refuse(batten_context *context, const batten_hull *hull,
@@ -191,38 +192,26 @@ static void test_batch(void **state)
 	batten_hull_destroy(hull);
 }
 
-/* Memory that runs out at the n-th request. */
-struct purse {
-	size_t left, requests;
+struct variation {
+	const batten_hull *hull;
+	batten_vary_options options;
 };
 
-static void *take(size_t size, void *user)
+static batten_status vary_once(batten_context *context, void *user)
 {
-	struct purse *purse = user;
-	purse->requests++;
-	if (purse->left == 0)
-		return NULL;
-	purse->left--;
-	return malloc(size);
-}
-
-static void give(void *memory, void *user)
-{
-	(void)user;
-	free(memory);
+	const struct variation *v = user;
+	batten_hull *variant = NULL;
+	const batten_status status = batten_hull_vary(context, v->hull, &v->options, &variant, NULL);
+	assert_int_equal(variant != NULL, status == BATTEN_OK);
+	batten_hull_destroy(variant);
+	return status;
 }
 
 static void test_memory(void **state)
 {
 	(void)state;
-	struct purse purse = { SIZE_MAX, 0 };
-	batten_context_options context_options;
-	batten_context_options_default(&context_options);
-	context_options.allocate = take;
-	context_options.release = give;
-	context_options.allocate_user = &purse;
-	batten_context *context = NULL;
-	assert_int_equal(batten_context_create(&context_options, &context), BATTEN_OK);
+	failing_heap heap = { 0 };
+	batten_context *context = failing_heap_context(&heap);
 	batten_hull *hull = read_hull(context, "bsra_trawler");
 	const batten_hull *const others[] = { hull };
 	const double parts[] = { 0, 1 };
@@ -241,22 +230,11 @@ static void test_memory(void **state)
 		options.from_part = options.to_part = parts;
 		options.middle_aft_m = 12;
 		options.middle_fore_m = 18;
-		purse.left = SIZE_MAX;
-		purse.requests = 0;
-		batten_hull_destroy(vary(context, hull, &options, NULL));
-		const size_t needed = purse.requests;
-		assert_true(needed > 20);
-		for (size_t n = 0; n < needed; n++) {
-			batten_hull *variant = NULL;
-			purse.left = n;
-			assert_int_equal(batten_hull_vary(context, hull, &options, &variant, NULL),
-			                 BATTEN_MEMORY);
-			assert_null(variant);
-		}
+		struct variation variation = { hull, options };
+		assert_true(failing_heap_each(&heap, context, vary_once, &variation) > 20);
 	}
-	purse.left = SIZE_MAX;
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
+	failing_heap_close(&heap, context);
 }
 
 int main(void)
