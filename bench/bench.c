@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -72,4 +73,55 @@ bool bench_is_cpu(const bench_settings *settings)
 	const size_t index = settings->device >= 0 ? (size_t)settings->device : 0;
 	return batten_device_count(settings->context, NULL) == 0 ||
 	       batten_device_describe(settings->context, index, &device) != BATTEN_OK || device.is_cpu;
+}
+
+static batten_status timed(const bench_settings *settings, const bench_contest *contest, int device,
+                           batten_precision precision, double *seconds)
+{
+	const bool wall = !bench_is_cpu(settings);
+	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
+	const batten_status status = contest->run(settings, contest->workload, device, precision, NULL);
+	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
+	return status;
+}
+
+/* Warm-up, and the proof that both do the same. */
+static batten_status prove_same(const bench_settings *settings, const bench_contest *contest,
+                                bench_row *row)
+{
+	batten_run run = { .strict = true };
+	batten_status status = contest->run(settings, contest->workload, settings->device,
+	                                    row->precision, &run);
+	(void)snprintf(row->device, sizeof row->device, "%s", run.device);
+	if (status == BATTEN_OK)
+		status = contest->run(settings, contest->workload, BATTEN_DEVICE_REFERENCE, row->precision,
+		                      NULL);
+	if (status == BATTEN_OK && run.strict && !contest->same(contest->workload))
+		status = BATTEN_INTERNAL;
+	return status;
+}
+
+batten_status bench_against_reference(const bench_settings *settings, const bench_contest *contest,
+                                      bench_row *row)
+{
+	bench_pairs pairs;
+	double share[BENCH_PAIRS] = { 0.0 };
+	const bool with_peak = contest->operations > 0.0 && bench_is_cpu(settings);
+	batten_status status = prove_same(settings, contest, row);
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		status = timed(settings, contest, settings->device, row->precision, &pairs.value[p]);
+		if (status == BATTEN_OK)
+			status = timed(settings, contest, BATTEN_DEVICE_REFERENCE, row->precision,
+			               &pairs.reference[p]);
+		/* Beside the pair: the clock of a core changes with its neighbours' load. */
+		const double peak = with_peak ? bench_peak(row->precision) : 0.0;
+		share[p] = peak > 0.0 ? contest->operations / pairs.value[p] / peak : 0.0;
+	}
+	if (status != BATTEN_OK)
+		return status;
+	row->reference = "reference";
+	bench_pairs_judge(&pairs, contest->scale, row);
+	row->percent_of_peak = 100.0 * bench_median(share);
+	settings->emit(row, settings->user);
+	return BATTEN_OK;
 }

@@ -57,6 +57,26 @@ void bench_pairs_judge(const bench_pairs *pairs, double scale, bench_row *row);
 /* Whether times are those of processors, in CPU seconds, or of another device, in wall seconds. */
 bool bench_is_cpu(const bench_settings *settings);
 
+/* ---- the device against the plain C path ---- */
+
+/* What a workload gives; both sides do the same work, each into arrays of its own. */
+typedef struct bench_contest {
+	void *workload;
+	/* One run of one side, into its arrays: the reference's where device is
+	 * BATTEN_DEVICE_REFERENCE. run may be NULL. */
+	batten_status (*run)(const bench_settings *settings, void *workload, int device,
+	                     batten_precision precision, batten_run *run);
+	bool (*same)(const void *workload); /* whether both sides' results are equal bit for bit */
+	double scale;                       /* from seconds of one run to the row's unit */
+	double operations; /* floating-point, of one run, for percent_of_peak; 0: leave that unknown */
+} bench_contest;
+
+/* Runs the contest as bench/README.md says and emits row, which has name, case, precision and unit
+ * before. CPU seconds where the device is a CPU, wall seconds elsewhere, for both sides. Errors:
+ * those of the runs; INTERNAL: the device is strict and the results differ. */
+batten_status bench_against_reference(const bench_settings *settings, const bench_contest *contest,
+                                      bench_row *row);
+
 /* Floating-point operations a second of one core, multiply-adds in its widest vectors counted as two;
  * 0 where they are not known to be had. Takes milliseconds: measure it beside what it judges. */
 double bench_peak(batten_precision precision);

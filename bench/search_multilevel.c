@@ -64,60 +64,41 @@ static bool workload_create(size_t count, double w2, workload *w)
 	return true;
 }
 
-/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
-static batten_status timed(const bench_settings *settings, const workload *w, int device,
-                           batten_precision precision, double *y, batten_search_result *results,
-                           batten_run *run, bool wall, double *seconds)
+/* One run: the batch, searched whole. */
+static batten_status run_batch(const bench_settings *settings, void *user, int device,
+                               batten_precision precision, batten_run *run)
 {
+	const workload *w = user;
+	const bool known = device == BATTEN_DEVICE_REFERENCE;
+	const batten_grid grid = { STATIONS, WATERLINES, w->x, w->z };
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.device = device;
 	options.precision = precision;
-	const batten_grid grid = { STATIONS, WATERLINES, w->x, w->z };
-	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
-	const batten_status status = batten_search_batch(settings->context, &grid, w->count,
-	                                                 w->problems, &options, y, results, run);
-	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
-	return status;
+	return batten_search_batch(settings->context, &grid, w->count, w->problems, &options,
+	                           known ? w->known_y : w->y, known ? w->known : w->results, run);
+}
+
+static bool same_results(const void *user)
+{
+	const workload *w = user;
+	return memcmp(w->y, w->known_y, w->count * NODES * sizeof *w->y) == 0;
 }
 
 static batten_status run_case(const bench_settings *settings, double raw_w2,
                               batten_precision precision)
 {
 	workload w;
-	bench_pairs pairs;
-	batten_run run;
-	bench_row row = { .precision = precision, .unit = "us per hull", .reference = "reference" };
+	bench_row row = { .name = "search.multilevel", .precision = precision, .unit = "us per hull" };
 	/* Literature quotes w2 in raw metres; dimensionless it is h^4 = 0.4096 times that. */
-	if (!workload_create(settings->full ? 64 : 16, raw_w2 * 0.4096, &w)) {
-		workload_release(&w);
-		return BATTEN_MEMORY;
-	}
-	const bool wall = !bench_is_cpu(settings);
-	double seconds = 0.0;
-	/* Warm-up, and the proof that both do the same. */
-	batten_status status = timed(settings, &w, settings->device, precision, w.y, w.results, &run,
-	                             wall, &seconds);
-	if (status == BATTEN_OK)
-		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
-		               wall, &seconds);
-	if (status == BATTEN_OK && run.strict &&
-	    memcmp(w.y, w.known_y, w.count * NODES * sizeof *w.y) != 0)
-		status = BATTEN_INTERNAL;
-	(void)snprintf(row.name, sizeof row.name, "search.multilevel");
+	const bool made = workload_create(settings->full ? 64 : 16, raw_w2 * 0.4096, &w);
+	batten_status status = made ? BATTEN_OK : BATTEN_MEMORY;
+	const bench_contest contest = {
+		.workload = &w, .run = run_batch, .same = same_results, .scale = 1e6 / (double)w.count
+	};
 	(void)snprintf(row.case_name, sizeof row.case_name, "21x20 w %g batch %zu", raw_w2, w.count);
-	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
-	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
-		status = timed(settings, &w, settings->device, precision, w.y, w.results, NULL, wall,
-		               &pairs.value[p]);
-		if (status == BATTEN_OK)
-			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known,
-			               NULL, wall, &pairs.reference[p]);
-	}
-	if (status == BATTEN_OK) {
-		bench_pairs_judge(&pairs, 1e6 / (double)w.count, &row);
-		settings->emit(&row, settings->user);
-	}
+	if (status == BATTEN_OK)
+		status = bench_against_reference(settings, &contest, &row);
 	workload_release(&w);
 	return status;
 }

@@ -88,54 +88,37 @@ static batten_status workload_create(const bench_settings *settings, size_t coun
 	return status;
 }
 
-/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
-static batten_status timed(const bench_settings *settings, const workload *w, int device,
-                           batten_precision precision, double *y, batten_search_result *results,
-                           batten_run *run, double *seconds)
+/* One run: the batch, searched whole. */
+static batten_status run_batch(const bench_settings *settings, void *user, int device,
+                               batten_precision precision, batten_run *run)
 {
-	const bool wall = !bench_is_cpu(settings);
+	const workload *w = user;
+	const bool known = device == BATTEN_DEVICE_REFERENCE;
 	batten_net_options options;
 	batten_net_options_default(&options);
 	options.search.device = device;
 	options.search.precision = precision;
-	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
-	const batten_status status = batten_net_search_batch(settings->context, w->count, w->problems,
-	                                                     &options, y, results, run);
-	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
-	return status;
+	return batten_net_search_batch(settings->context, w->count, w->problems, &options,
+	                               known ? w->known_y : w->y, known ? w->known : w->results, run);
+}
+
+static bool same_results(const void *user)
+{
+	const workload *w = user;
+	return memcmp(w->y, w->known_y, w->count * POLES * sizeof *w->y) == 0;
 }
 
 static batten_status run_case(const bench_settings *settings, double w2, batten_precision precision)
 {
 	workload w;
-	bench_pairs pairs;
-	batten_run run = { 0 };
-	bench_row row = { .precision = precision, .unit = "us per hull", .reference = "reference" };
-	double seconds = 0.0;
+	bench_row row = { .name = "search.net", .precision = precision, .unit = "us per hull" };
 	batten_status status = workload_create(settings, settings->full ? 32 : 16, w2, &w);
-	/* Warm-up, and the proof that both do the same. */
-	if (status == BATTEN_OK)
-		status = timed(settings, &w, settings->device, precision, w.y, w.results, &run, &seconds);
-	if (status == BATTEN_OK)
-		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known, NULL,
-		               &seconds);
-	if (status == BATTEN_OK && run.strict &&
-	    memcmp(w.y, w.known_y, w.count * POLES * sizeof *w.y) != 0)
-		status = BATTEN_INTERNAL;
-	(void)snprintf(row.name, sizeof row.name, "search.net");
+	const bench_contest contest = {
+		.workload = &w, .run = run_batch, .same = same_results, .scale = 1e6 / (double)w.count
+	};
 	(void)snprintf(row.case_name, sizeof row.case_name, "16x10 w %g batch %zu", w2, w.count);
-	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
-	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
-		status = timed(settings, &w, settings->device, precision, w.y, w.results, NULL,
-		               &pairs.value[p]);
-		if (status == BATTEN_OK)
-			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, w.known_y, w.known,
-			               NULL, &pairs.reference[p]);
-	}
-	if (status == BATTEN_OK) {
-		bench_pairs_judge(&pairs, 1e6 / (double)w.count, &row);
-		settings->emit(&row, settings->user);
-	}
+	if (status == BATTEN_OK)
+		status = bench_against_reference(settings, &contest, &row);
 	workload_release(&w);
 	return status;
 }

@@ -75,11 +75,11 @@ static batten_status workload_create(const bench_settings *settings, bool energy
 	return status;
 }
 
-/* CPU seconds of the batch on the C path and on CPU devices; wall seconds on others. */
-static batten_status timed(const bench_settings *settings, const workload *w, int device,
-                           batten_precision precision, batten_run *run, double *seconds)
+/* One run: the grids or the integrals of all surfaces. */
+static batten_status run_batch(const bench_settings *settings, void *user, int device,
+                               batten_precision precision, batten_run *run)
 {
-	const bool wall = !bench_is_cpu(settings);
+	const workload *w = user;
 	const bool known = device == BATTEN_DEVICE_REFERENCE;
 	const batten_surface *const *surfaces = (const batten_surface *const *)w->surfaces;
 	const batten_surface_samples samples = { GRID_U, GRID_V, w->u, w->v };
@@ -88,20 +88,16 @@ static batten_status timed(const bench_settings *settings, const workload *w, in
 	options.device = device;
 	options.precision = precision;
 	options.gauss_points = GAUSS;
-	batten_status status = BATTEN_OK;
-	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
 	if (w->energy)
-		status = batten_surface_energy_batch(settings->context, w->count, surfaces, &options,
-		                                     known ? w->known_energies : w->energies, run);
-	else
-		status = batten_surface_grid_batch(settings->context, w->count, surfaces, &samples,
-		                                   &options, known ? w->known : w->values, NULL, run);
-	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
-	return status;
+		return batten_surface_energy_batch(settings->context, w->count, surfaces, &options,
+		                                   known ? w->known_energies : w->energies, run);
+	return batten_surface_grid_batch(settings->context, w->count, surfaces, &samples, &options,
+	                                 known ? w->known : w->values, NULL, run);
 }
 
-static bool same_results(const workload *w)
+static bool same_results(const void *user)
 {
+	const workload *w = user;
 	if (w->energy)
 		return memcmp(w->energies, w->known_energies, w->count * sizeof *w->energies) == 0;
 	return memcmp(w->values, w->known, w->count * w->points * 2 * sizeof *w->values) == 0;
@@ -111,37 +107,19 @@ static batten_status run_case(const bench_settings *settings, bool energy,
                               batten_precision precision)
 {
 	workload w;
-	bench_pairs pairs;
-	batten_run run = { .strict = true };
-	bench_row row = { .precision = precision, .unit = "ns per point", .reference = "reference" };
-	double seconds = 0.0;
+	bench_row row = { .precision = precision, .unit = "ns per point" };
 	batten_status status = workload_create(settings, energy, &w);
-	/* Warm-up, and the proof that both do the same. */
-	if (status == BATTEN_OK)
-		status = timed(settings, &w, settings->device, precision, &run, &seconds);
-	if (status == BATTEN_OK)
-		status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, NULL, &seconds);
-	if (status == BATTEN_OK && run.strict && !same_results(&w))
-		status = BATTEN_INTERNAL;
+	const double points = (double)(w.count * w.points);
+	const bench_contest contest = { .workload = &w,
+		                            .run = run_batch,
+		                            .same = same_results,
+		                            .scale = 1e9 / points,
+		                            .operations = OPERATIONS * points };
 	(void)snprintf(row.name, sizeof row.name, "surface.%s", energy ? "energy" : "curvature_grid");
 	(void)snprintf(row.case_name, sizeof row.case_name, "%dx%d bicubic batch %zu", ALONG, UP,
 	               w.count);
-	(void)snprintf(row.device, sizeof row.device, "%s", run.device);
-	const double operations = (double)OPERATIONS * (double)(w.count * w.points);
-	double share[BENCH_PAIRS] = { 0.0 };
-	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
-		status = timed(settings, &w, settings->device, precision, NULL, &pairs.value[p]);
-		if (status == BATTEN_OK)
-			status = timed(settings, &w, BATTEN_DEVICE_REFERENCE, precision, NULL,
-			               &pairs.reference[p]);
-		const double peak = bench_is_cpu(settings) ? bench_peak(precision) : 0.0;
-		share[p] = peak > 0.0 ? operations / pairs.value[p] / peak : 0.0;
-	}
-	if (status == BATTEN_OK) {
-		bench_pairs_judge(&pairs, 1e9 / (double)(w.count * w.points), &row);
-		row.percent_of_peak = 100.0 * bench_median(share);
-		settings->emit(&row, settings->user);
-	}
+	if (status == BATTEN_OK)
+		status = bench_against_reference(settings, &contest, &row);
 	workload_release(&w);
 	return status;
 }

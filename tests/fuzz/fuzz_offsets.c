@@ -1,50 +1,9 @@
 /* The reader of offsets files against arbitrary bytes. What it accepts must be a sound hull that is
- * written and read back unchanged; what it refuses must come with a message that names the place.
- *
- *   clang -fsanitize=fuzzer,address,undefined ...            libFuzzer
- *   fuzz_offsets FILE ...   (with BATTEN_FUZZ_STANDALONE)  the files, and changed copies of them */
-#include "batten.h"
+ * written and read back unchanged; what it refuses must come with a message that names the place. */
+#define FUZZ_PROGRAM "fuzz_offsets"
+#include "fuzz.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static const char *input_name = "input.csv";
-
-static void require(bool condition, const char *what, const char *detail)
-{
-	if (condition)
-		return;
-	(void)fprintf(stderr, "fuzz_offsets: %s: %s\n", what, detail);
-	abort();
-}
-
-/* Whether text goes on with ":NUMBER"; moves it past that. */
-static bool skip_number(const char **text)
-{
-	if ((*text)[0] != ':' || (*text)[1] < '1' || (*text)[1] > '9')
-		return false;
-	*text += 1 + strspn(*text + 1, "0123456789");
-	return true;
-}
-
-static void check_message(batten_status status, const char *message)
-{
-	require(status == BATTEN_INPUT || status == BATTEN_MEMORY, "status of a refusal", message);
-	require(strchr(message, '\n') == NULL, "message of one line", message);
-	if (status == BATTEN_MEMORY)
-		return;
-	size_t name = strlen(input_name);
-	const char *rest = message + name;
-	require(strncmp(message, input_name, name) == 0 && skip_number(&rest) && skip_number(&rest) &&
-	            strncmp(rest, ": found ", 8) == 0 && strstr(rest, ", expected "),
-	        "message with file, line, column, what was found and what was expected", message);
-}
 
 static void check_ascending(const double *values, size_t count, const char *what)
 {
@@ -93,10 +52,8 @@ static void check_equal(const batten_hull *a, const batten_hull *b)
 
 static void check_round_trip(batten_context *context, const batten_hull *hull)
 {
-	const char *folder = getenv("TMPDIR");
-	char path[256];
-	(void)snprintf(path, sizeof path, "%s/fuzz_offsets.%ld.csv", folder ? folder : "/tmp",
-	               (long)getpid());
+	char path[FUZZ_PATH];
+	temporary_path(path);
 	batten_hull *again = NULL;
 	require(batten_hull_write(context, hull, path) == BATTEN_OK, "write",
 	        batten_context_error(context));
@@ -107,13 +64,8 @@ static void check_round_trip(batten_context *context, const batten_hull *hull)
 	(void)unlink(path);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+static void fuzz_one(batten_context *context, const uint8_t *data, size_t size)
 {
-	batten_context_options options;
-	batten_context_options_default(&options);
-	options.max_memory = (size_t)256 << 20;
-	batten_context *context = NULL;
-	require(batten_context_create(&options, &context) == BATTEN_OK, "context", "not made");
 	batten_hull *hull = NULL;
 	batten_status status = batten_hull_parse(context, input_name, (const char *)data, size, &hull);
 	if (status == BATTEN_OK) {
@@ -124,80 +76,4 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 		check_message(status, batten_context_error(context));
 	}
 	batten_hull_destroy(hull);
-	batten_context_destroy(context);
-	return 0;
 }
-
-#ifdef BATTEN_FUZZ_STANDALONE
-
-enum { CHANGED_COPIES = 6000, LARGEST_FILE = 1 << 16 };
-
-/* SplitMix64: the same changes on every machine. */
-static uint64_t next_random(uint64_t *state)
-{
-	uint64_t z = *state += 0x9E3779B97F4A7C15u;
-	z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-	z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-	return z ^ (z >> 31);
-}
-
-/* One change: a byte replaced, a piece taken out, or a piece doubled. */
-static size_t change(uint8_t *text, size_t size, uint64_t *state)
-{
-	static const char letters[] = "0123456789.,,,-+eE?#:;\n\n\r\t \"zxm\xEF\xBB\xBF";
-	size_t at = size > 0 ? (size_t)(next_random(state) % size) : 0;
-	size_t length = (size_t)(next_random(state) % 24);
-	length = length < size - at ? length : size - at;
-	switch (next_random(state) % 4) {
-	case 0:
-		memmove(text + at, text + at + length, size - at - length);
-		return size - length;
-	case 1:
-		if (size + length > LARGEST_FILE)
-			return size;
-		memmove(text + at + length, text + at, size - at);
-		return size + length;
-	case 2:
-		if (size > 0)
-			text[at] = (uint8_t)next_random(state);
-		return size;
-	default:
-		if (size > 0)
-			text[at] = (uint8_t)letters[next_random(state) % (sizeof letters - 1)];
-		return size;
-	}
-}
-
-static void run_file(const char *path)
-{
-	static uint8_t original[LARGEST_FILE], changed[LARGEST_FILE];
-	FILE *stream = fopen(path, "rb");
-	require(stream != NULL, "cannot be read", path);
-	size_t size = fread(original, 1, sizeof original, stream);
-	require(!ferror(stream) && size > 0 && size < sizeof original, "not a small file", path);
-	(void)fclose(stream);
-	(void)LLVMFuzzerTestOneInput(original, size);
-	uint64_t state = 2025;
-	for (int copy = 0; copy < CHANGED_COPIES; copy++) {
-		memcpy(changed, original, size);
-		size_t length = size;
-		for (uint64_t i = next_random(&state) % 4 + 1; i > 0; i--)
-			length = change(changed, length, &state);
-		/* Its own block of exactly this size, so that a sanitizer sees a byte read beyond. */
-		uint8_t *exact = malloc(length > 0 ? length : 1);
-		require(exact != NULL, "memory", path);
-		memcpy(exact, changed, length);
-		(void)LLVMFuzzerTestOneInput(exact, length);
-		free(exact);
-	}
-}
-
-int main(int argc, char **argv)
-{
-	require(argc > 1, "expected", "files to begin with");
-	for (int i = 1; i < argc; i++)
-		run_file(argv[i]);
-	return 0;
-}
-
-#endif
