@@ -17,8 +17,9 @@
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/net_energy.h"
-/* The objective first, then the pattern move: the driver calls them. */
+/* The objective first: moves call it. */
 #include "shared/search_ways.h"
+/* The course last: it calls the pattern move. */
 #include "shared/search_driver.h"
 
 /* shape: NET_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE numbers a sample along u, then along v. samples

@@ -13,8 +13,9 @@
 #define NET_ORDER_U (s->order_u)
 #define NET_ORDER_V (s->order_v)
 #include "shared/net_energy.h"
-/* The objective first, then the pattern move: the driver calls them. */
+/* The objective first: moves call it. */
 #include "shared/search_ways.h"
+/* The course last: it calls the pattern move. */
 #include "shared/search_driver.h"
 
 INLINED void work_search(const reference_net_search *shared, const scalar *tables,
