@@ -6,7 +6,10 @@
  * shape does not change a bit of the result; host/reference/multilevel_body.h is the same in plain C.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for grids whose state
- * does not fit local memory). */
+ * does not fit local memory), GRID_FAIRNESS (search_layout.h), plain bending where it is not. */
+#if !defined(GRID_FAIRNESS)
+#define GRID_FAIRNESS GRID_BENDING
+#endif
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/grid_energy.h"
@@ -21,6 +24,7 @@ typedef struct search_state {
 	int level_count, colour_count;
 	global const int *levels, *centres;
 	local real *lines; /* one sum a waterline */
+	grid_weights weights;
 } search_state;
 
 typedef struct search_move {
@@ -86,7 +90,8 @@ static inline real move_objective(const search_state *s, const search_move *move
 			above = moved_row(s, move, i, k);
 			if (k > first_k) {
 				const int node = node_of(s, i, k - 1);
-				column += node_objective(slopes_of(stencil_of(s, i, k - 1), below, here, above),
+				column += node_objective(GRID_FAIRNESS, s->weights,
+				                         slopes_of(stencil_of(s, i, k - 1), below, here, above),
 				                         s->bend[node], s->close[node], here.here, s->target[node]);
 			}
 			below = here;
@@ -112,7 +117,8 @@ static inline real whole_objective(const search_state *s)
 			const node_row below = { b[-1], b[0], b[1] };
 			const node_row here = { h[-1], h[0], h[1] };
 			const node_row above = { a[-1], a[0], a[1] };
-			line += node_objective(slopes_of(stencil_of(s, i, k), below, here, above),
+			line += node_objective(GRID_FAIRNESS, s->weights,
+			                       slopes_of(stencil_of(s, i, k), below, here, above),
 			                       s->bend[node], s->close[node], here.here, s->target[node]);
 		}
 		s->lines[k] = line;
@@ -258,6 +264,9 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	arrays += group * SEARCH_ARRAY_COUNT * nodes;
 	settings += group * SEARCH_SETTING_COUNT;
 	search_state s = state_of(stations, waterlines, stencils, arrays, room, lines);
+	s.weights.along = settings[SEARCH_SETTING_ALONG];
+	s.weights.across = settings[SEARCH_SETTING_ACROSS];
+	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
 	s.level_count = level_count;
 	s.colour_count = level_count * SEARCH_COLOUR_COUNT;
 	s.levels = levels;

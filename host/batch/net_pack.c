@@ -9,9 +9,6 @@
 #include "shared/dialect.h"
 #include "shared/surface_point.h"
 
-/* |K| is taken as sqrt(K^2 + e^2) with e this part of 1 / h^2: a search needs a smooth objective. */
-#define GAUSS_ROUNDING 1e-3
-
 static void put(const net_plan *plan, void *numbers, size_t at, double value)
 {
 	if (plan->options.precision == BATTEN_F64)

@@ -21,7 +21,8 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 	search_shape shape = { .device = index,
 		                   .precision = plan->options.precision,
 		                   .lanes = plan->options.lanes,
-		                   .work_group = plan->options.work_group };
+		                   .work_group = plan->options.work_group,
+		                   .fairness = plan->fairness };
 	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
 	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
 	const size_t state = (3 * plan->node_count + plan->waterline_count + 2 * shape.work_group) *
@@ -54,8 +55,9 @@ batten_status search_engine_open(batten_context *context, const search_shape *sh
 		                           .precision = shape->precision,
 		                           .lanes = shape->lanes,
 		                           .work_group = shape->work_group };
-	(void)snprintf(recipe.options, sizeof recipe.options, "%s",
-	               shape->global_state ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local");
+	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DGRID_FAIRNESS=%d",
+	               shape->global_state ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local",
+	               shape->fairness);
 	search_engine *made = (search_engine *)batch_engine_find(context, &recipe);
 	batten_status status = BATTEN_OK;
 	if (!made) {

@@ -11,6 +11,7 @@ typedef struct search_shape {
 	batten_precision precision;
 	unsigned lanes, work_group;
 	bool global_state; /* the grid's state does not fit the device's local memory */
+	int fairness;      /* GRID_BENDING ... */
 } search_shape;
 
 typedef struct search_engine search_engine;

@@ -100,6 +100,13 @@ void search_pack(const search_plan *plan, const batten_search_problem *problem, 
 	    plan->options.first_step * problem->half_beam_m);
 	put(plan, settings, SEARCH_SETTING_LAST_STEP * lanes + lane,
 	    plan->options.last_step * problem->half_beam_m);
+	const double h2 = problem->half_beam_m * problem->half_beam_m;
+	const double blunt = GAUSS_ROUNDING / h2;
+	put(plan, settings, SEARCH_SETTING_ALONG * lanes + lane,
+	    sqrt(plan->options.longitudinal_weight));
+	put(plan, settings, SEARCH_SETTING_ACROSS * lanes + lane,
+	    sqrt(plan->options.transverse_weight));
+	put(plan, settings, SEARCH_SETTING_BLUNT * lanes + lane, blunt * blunt);
 }
 
 /* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */

@@ -243,6 +243,42 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 	return status;
 }
 
+static bool is_curvature_weight(double weight)
+{
+	return weight == 0.0 || (weight >= 1e-6 && weight <= 1e6);
+}
+
+static batten_status choose_fairness(search_plan *plan)
+{
+	const double along = plan->options.longitudinal_weight;
+	const double across = plan->options.transverse_weight;
+	if (!is_curvature_weight(along) || !is_curvature_weight(across) || along + across == 0.0)
+		return batten_fail(
+			plan->context, BATTEN_USAGE,
+			"longitudinal and transverse weight %g and %g: 0 or 1e-6 to 1e6, not both "
+			"0, are expected",
+			along, across);
+	switch (plan->options.fairness) {
+	case BATTEN_FAIRNESS_BENDING:
+		plan->fairness = along == 1.0 && across == 1.0 ? GRID_BENDING : GRID_BENDING_WEIGHTED;
+		return BATTEN_OK;
+	case BATTEN_FAIRNESS_MEAN:
+		plan->fairness = GRID_MEAN;
+		return BATTEN_OK;
+	case BATTEN_FAIRNESS_GAUSS:
+		plan->fairness = GRID_GAUSS;
+		return BATTEN_OK;
+	case BATTEN_FAIRNESS_VARIATION:
+		return batten_fail(
+			plan->context, BATTEN_USAGE,
+			"variation of curvature takes third differences, which reach beyond the 3 "
+			"x 3 offsets a search looks at: it needs the net as variables "
+			"(--variables net)");
+	}
+	return batten_fail(plan->context, BATTEN_USAGE, "found fairness %d, which is none",
+	                   (int)plan->options.fairness);
+}
+
 batten_status search_plan_create(batten_context *context, const batten_grid *grid, size_t count,
                                  const batten_search_problem *problems,
                                  const batten_search_options *options, search_plan **out)
@@ -255,6 +291,8 @@ batten_status search_plan_create(batten_context *context, const batten_grid *gri
 		return BATTEN_MEMORY;
 	plan->context = context;
 	status = search_options_check(context, options, &plan->options);
+	if (status == BATTEN_OK)
+		status = choose_fairness(plan);
 	if (status == BATTEN_OK && plan->options.precision == BATTEN_F32 &&
 	    grid->station_count * grid->waterline_count > F32_NODE_LIMIT)
 		status = batten_fail(context, BATTEN_USAGE,
@@ -350,7 +388,9 @@ void batten_search_options_default(batten_search_options *options)
 		                                .device = BATTEN_DEVICE_AUTO,
 		                                .precision = BATTEN_F64,
 		                                .first_step = 0.02,
-		                                .iteration_limit = 400 };
+		                                .iteration_limit = 400,
+		                                .longitudinal_weight = 1.0,
+		                                .transverse_weight = 1.0 };
 }
 
 const char *batten_search_end_text(batten_search_end end)

@@ -28,6 +28,7 @@ typedef struct search_plan {
 	search_level levels[SEARCH_LEVEL_LIMIT];
 	int32_t *centres; /* station, waterline; every level and colour one after the other */
 	size_t direction_count;
+	int fairness;                  /* GRID_BENDING ... */
 	batten_search_options options; /* with every 0 replaced by what it chooses */
 } search_plan;
 

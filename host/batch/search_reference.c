@@ -38,6 +38,7 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 		                                  .waterlines = (int)plan->waterline_count,
 		                                  .level_count = plan->level_count,
 		                                  .iteration_limit = (int)plan->options.iteration_limit,
+		                                  .fairness = plan->fairness,
 		                                  .levels = &plan->levels[0].width_x,
 		                                  .centres = plan->centres };
 	union {

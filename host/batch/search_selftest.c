@@ -116,6 +116,11 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.precision = shape->precision;
+	options.fairness = shape->fairness == GRID_MEAN    ? BATTEN_FAIRNESS_MEAN
+	                   : shape->fairness == GRID_GAUSS ? BATTEN_FAIRNESS_GAUSS
+	                                                   : BATTEN_FAIRNESS_BENDING;
+	if (shape->fairness != GRID_BENDING)
+		options.longitudinal_weight = 2.0;
 	search_plan *plan = NULL;
 	batten_status status = search_plan_create(context, &grid, count, problems, &options, &plan);
 	double *y = batten_allocate(context, count, NODES * sizeof *y);

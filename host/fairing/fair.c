@@ -29,10 +29,9 @@ static batten_status check_variables(batten_context *context, const batten_fair_
 	                       BATTEN_EDGE_DECK;
 	switch (options->variables) {
 	case BATTEN_VARIABLES_OFFSETS:
-		if (options->fairness != BATTEN_FAIRNESS_BENDING)
+		if (options->search.fairness != BATTEN_FAIRNESS_BENDING)
 			return batten_fail(context, BATTEN_USAGE,
-			                   "offsets are faired by their bending energy: any other fairness "
-			                   "needs the net as variables (--variables net)");
+			                   "the fairness of a fairing stands beside its search options");
 		if (options->net_lock_count > 0 || options->locked_edges || options->fixed_tangents)
 			return batten_fail(context, BATTEN_USAGE,
 			                   "locks of poles and edges need the net as variables (--variables "

@@ -55,6 +55,8 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	const size_t count = options->weights_given ? 1 : DISCREPANCY_RATIOS;
 	batten_search_problem problems[DISCREPANCY_RATIOS];
 	batten_search_result results[DISCREPANCY_RATIOS];
+	batten_search_options chosen_search = options->search;
+	chosen_search.fairness = options->fairness;
 	for (size_t i = 0; i < count; i++)
 		problems[i] = (batten_search_problem){
 			.nodes = hull->nodes,
@@ -72,7 +74,7 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 		return BATTEN_MEMORY;
 	const batten_grid grid = { hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
 	const batten_status status = batten_search_batch(context, &grid, count, problems,
-	                                                 &options->search, y, results, &fairing->run);
+	                                                 &chosen_search, y, results, &fairing->run);
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
 		fairing->result = results[chosen];

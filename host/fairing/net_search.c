@@ -38,6 +38,11 @@ static batten_status check_options(batten_context *context, const batten_net_opt
 	    (int)chosen->fairness > NET_FAIRNESS_VARIATION)
 		return batten_fail(context, BATTEN_USAGE, "fairness %d: 0 to 3 are expected",
 		                   (int)chosen->fairness);
+	if (chosen->search.fairness != BATTEN_FAIRNESS_BENDING ||
+	    chosen->search.longitudinal_weight != 1.0 || chosen->search.transverse_weight != 1.0)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "a search over nets takes its fairness from the net's options, and both "
+		                   "directions alike");
 	if (chosen->gauss_points > GAUSS_POINTS_MOST)
 		return batten_fail(context, BATTEN_USAGE, "%u Gauss points a span: at most %d are expected",
 		                   chosen->gauss_points, GAUSS_POINTS_MOST);

@@ -354,6 +354,15 @@ BATTEN_API batten_status batten_device_selftest(batten_context *context, size_t 
  * The pattern search, many at a time
  * --------------------------------------------------------------------------------------------- */
 
+/* What a surface is to be low in (thesis 7.1; Letcher 4.5), integrated over its area. With h the
+ * half-beam all are made free of dimension: a ratio w2/w1 means the same on every hull. */
+typedef enum batten_fairness {
+	BATTEN_FAIRNESS_BENDING,   /* k1^2 + k2^2 */
+	BATTEN_FAIRNESS_MEAN,      /* ((k1 + k2) / 2)^2 */
+	BATTEN_FAIRNESS_GAUSS,     /* |k1 k2|, as sqrt(K^2 + e^2) with e = 0.001 / h^2 */
+	BATTEN_FAIRNESS_VARIATION, /* h^2 times (dk1/ds1)^2 + (dk2/ds2)^2 along their own lines */
+} batten_fairness;
+
 /* The grid all searches of a batch share: coordinates ascending, 3..4096 each. */
 typedef struct batten_grid {
 	size_t station_count, waterline_count;
@@ -362,8 +371,9 @@ typedef struct batten_grid {
 
 /* One search. All arrays are [waterlines][stations]; a node outside the hull is left alone and no
  * stencil crosses it. Minimises
- *     F(y) = w1 * energy_bending(y) + w2 * sum (y - target)^2 dx dz / h^4
- * (thesis 7.1-7.2) over lower <= y <= upper; a node with lower == upper is fixed. */
+ *     F(y) = w1 * sum of fairness dS + w2 * sum (y - target)^2 dx dz / h^4
+ * (thesis 7.1-7.2; the first sum over the nodes whose eight neighbours are on the hull) over
+ * lower <= y <= upper; a node with lower == upper is fixed. */
 typedef struct batten_search_problem {
 	const uint8_t *nodes;  /* batten_node; NULL: all on the hull */
 	const double *start_m; /* finite; clamped into the box */
@@ -383,6 +393,13 @@ typedef struct batten_search_options {
 	unsigned iteration_limit; /* 400 */
 	unsigned lanes;      /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
 	unsigned work_group; /* work-items a search is shared by; 0 chooses */
+	/* The rest is of searches over offset grids only. */
+	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING; VARIATION is for nets only */
+	/* Weights of the squared normal curvature along the tangent of the waterline, k11, and square to
+	 * it in the surface, k22 (Letcher 4.5: the former counts more). With a and b their roots the
+	 * entries of the shape operator in this frame become a k11, sqrt(a b) k12, b k22 in every
+	 * fairness: bending is a^2 k11^2 + 2 a b k12^2 + b^2 k22^2. 0 or 1e-6 .. 1e6, not both 0; 1, 1. */
+	double longitudinal_weight, transverse_weight;
 } batten_search_options;
 BATTEN_API void batten_search_options_default(batten_search_options *options);
 
@@ -1162,15 +1179,6 @@ BATTEN_API batten_status batten_table_write(batten_context *context, const batte
  * The pattern search over the control net of a surface, many at a time
  * --------------------------------------------------------------------------------------------- */
 
-/* What a surface is to be low in (thesis 7.1; Letcher 4.5), integrated over its area. With h the
- * half-beam all are made free of dimension: a ratio w2/w1 means the same on every hull. */
-typedef enum batten_fairness {
-	BATTEN_FAIRNESS_BENDING,   /* k1^2 + k2^2 */
-	BATTEN_FAIRNESS_MEAN,      /* ((k1 + k2) / 2)^2 */
-	BATTEN_FAIRNESS_GAUSS,     /* |k1 k2|, as sqrt(K^2 + e^2) with e = 0.001 / h^2 */
-	BATTEN_FAIRNESS_VARIATION, /* h^2 times (dk1/ds1)^2 + (dk2/ds2)^2 along their own lines */
-} batten_fairness;
-
 /* One search: the y of the poles of a surface. Minimises
  *     F = w1 * integral of fairness dA + w2 * integral of (y - target)^2 |x_u z_v - x_v z_u| du dv / h^4
  * by Gauss quadrature over every knot span, lower <= y <= upper; a pole with lower == upper is
@@ -1284,7 +1292,8 @@ typedef struct batten_fair_options {
 	size_t lock_count;
 	const batten_hull *lower, *upper; /* bounds on the same table, or NULL; of OFFSETS only */
 	batten_variables variables;       /* BATTEN_VARIABLES_OFFSETS */
-	batten_fairness fairness;         /* of NET; OFFSETS knows bending only */
+	batten_fairness fairness;         /* of both, in place of search.fairness; no VARIATION with
+	                                     OFFSETS, no weights of directions with NET */
 	/* The rest is of NET only. */
 	batten_fit_options fit;           /* counts 0: chosen from the table; stiffness 1e-3 */
 	const batten_net_lock *net_locks; /* borrowed for the call */

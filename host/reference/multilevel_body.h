@@ -14,6 +14,8 @@ typedef struct search_state {
 	const scalar *along_x, *along_z;
 	scalar *y;
 	const scalar *lower, *upper, *target, *bend, *close;
+	int fairness;
+	grid_weights weights;
 } search_state;
 
 /* A direction with a step: 0 everywhere but under the hat. */
@@ -81,7 +83,8 @@ static scalar local_objective(const search_state *s, const hat_move *move)
 		for (int k = first_k; k <= end_k; k++) {
 			const node_row above = moved_row(s, move, i, k + 1);
 			const size_t node = node_of(s, i, k);
-			column += node_objective(slopes_of(stencil_of(s, i, k), below, here, above),
+			column += node_objective(s->fairness, s->weights,
+			                         slopes_of(stencil_of(s, i, k), below, here, above),
 			                         s->bend[node], s->close[node], here.here, s->target[node]);
 			below = here;
 			here = above;
@@ -105,7 +108,8 @@ static scalar whole_objective(const search_state *s, const scalar *y)
 			const node_row below = { b[-1], b[0], b[1] };
 			const node_row here = { h[-1], h[0], h[1] };
 			const node_row above = { a[-1], a[0], a[1] };
-			line += node_objective(slopes_of(stencil_of(s, i, k), below, here, above),
+			line += node_objective(s->fairness, s->weights,
+			                       slopes_of(stencil_of(s, i, k), below, here, above),
 			                       s->bend[node], s->close[node], here.here, s->target[node]);
 		}
 		sum += line;
@@ -224,7 +228,11 @@ void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencil
 		                     .upper = arrays + SEARCH_ARRAY_UPPER * nodes,
 		                     .target = arrays + SEARCH_ARRAY_TARGET * nodes,
 		                     .bend = arrays + SEARCH_ARRAY_BEND * nodes,
-		                     .close = arrays + SEARCH_ARRAY_CLOSE * nodes };
+		                     .close = arrays + SEARCH_ARRAY_CLOSE * nodes,
+		                     .fairness = plan->fairness,
+		                     .weights = { settings[SEARCH_SETTING_ALONG],
+		                                  settings[SEARCH_SETTING_ACROSS],
+		                                  settings[SEARCH_SETTING_BLUNT] } };
 	scalar *base = scratch;
 	scalar *trial = scratch + nodes;
 	scalar h = settings[SEARCH_SETTING_FIRST_STEP];

@@ -17,8 +17,26 @@ enum {
 /* Ways a pattern move goes: the iteration's own and those of iterations before. */
 #define SEARCH_WAYS 4
 
+/* What an offset grid is to be low in. */
+enum {
+	GRID_BENDING,          /* k1^2 + k2^2, both directions alike */
+	GRID_BENDING_WEIGHTED, /* the directions weighted */
+	GRID_MEAN,             /* ((k1 + k2) / 2)^2 */
+	GRID_GAUSS             /* |k1 k2|, rounded off at 0 */
+};
+
+/* |K| is taken as sqrt(K^2 + e^2) with e this part of 1 / h^2: a search needs a smooth objective. */
+#define GAUSS_ROUNDING 1e-3
+
 /* One value a search each. */
-enum { SEARCH_SETTING_FIRST_STEP, SEARCH_SETTING_LAST_STEP, SEARCH_SETTING_COUNT };
+enum {
+	SEARCH_SETTING_FIRST_STEP,
+	SEARCH_SETTING_LAST_STEP,
+	SEARCH_SETTING_ALONG, /* the rest: grid_weights of grid_energy.h */
+	SEARCH_SETTING_ACROSS,
+	SEARCH_SETTING_BLUNT,
+	SEARCH_SETTING_COUNT
+};
 enum {
 	SEARCH_OUTCOME_START, /* objective */
 	SEARCH_OUTCOME_END,   /* objective */

@@ -23,9 +23,9 @@ static void test_lanes(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 1, false }, { 0, BATTEN_F64, 2, 1, false },
-		{ 0, BATTEN_F64, 4, 1, false }, { 0, BATTEN_F64, 16, 1, false },
-		{ 0, BATTEN_F32, 1, 1, false }, { 0, BATTEN_F32, 8, 1, false },
+		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING }, { 0, BATTEN_F64, 2, 1, false, GRID_BENDING },
+		{ 0, BATTEN_F64, 4, 1, false, GRID_BENDING }, { 0, BATTEN_F64, 16, 1, false, GRID_BENDING },
+		{ 0, BATTEN_F32, 1, 1, false, GRID_BENDING }, { 0, BATTEN_F32, 8, 1, false, GRID_BENDING },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -34,10 +34,10 @@ static void test_work_groups(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 7, false },
-		{ 0, BATTEN_F64, 1, 64, false },
-		{ 0, BATTEN_F64, 4, 3, false },
-		{ 0, BATTEN_F32, 1, 32, false },
+		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING },
+		{ 0, BATTEN_F64, 1, 64, false, GRID_BENDING },
+		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING },
+		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -46,9 +46,9 @@ static void test_global_state(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 8, 1, true },
-		{ 0, BATTEN_F64, 1, 16, true },
-		{ 0, BATTEN_F32, 16, 1, true },
+		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING },
+		{ 0, BATTEN_F64, 1, 16, true, GRID_BENDING },
+		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }

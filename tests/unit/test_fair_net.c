@@ -429,7 +429,7 @@ static void test_refusals(void **state)
 	refuse(*state, hull, &options, BATTEN_USAGE, "edge 16");
 	options = net_options(8, 7);
 	options.variables = BATTEN_VARIABLES_OFFSETS;
-	options.fairness = BATTEN_FAIRNESS_GAUSS;
+	options.fairness = BATTEN_FAIRNESS_VARIATION;
 	refuse(*state, hull, &options, BATTEN_USAGE, "--variables net");
 	options.fairness = BATTEN_FAIRNESS_BENDING;
 	options.variables = (batten_variables)7;
