@@ -1,104 +1,30 @@
-/* batten_search_batch: one queue of searches, one worker a device, or the C path's threads. */
-#include "batch/search_engine.h"
-#include "batch/search_reference.h"
+/* batten_search_batch: which algorithm runs a batch. */
+#include "batch/search_batch.h"
+
+#include "batch/search_plan.h"
 #include "batch/search_result.h"
-#include "batch/workers.h"
 
-typedef struct batch {
-	batch_work work; /* first: the callbacks get it */
-	search_plan *plan;
-	const batten_search_problem *problems;
-	double *y_m;
-	batten_search_result *results;
-} batch;
+/* Each algorithm's way to run a batch; NULL: this version lacks it. */
+typedef batten_status search_algorithm_run(const search_call *call, batten_run *run);
+static search_algorithm_run *const algorithms[] = {
+	[BATTEN_ALGORITHM_TEXTBOOK] = NULL,
+	[BATTEN_ALGORITHM_MULTILEVEL] = multilevel_batch_run,
+	[BATTEN_ALGORITHM_BLOCK] = NULL,
+};
+enum { ALGORITHM_COUNT = sizeof algorithms / sizeof algorithms[0] };
 
-static batten_status open_engine(batch_work *work, size_t index, const batten_device *device,
-                                 batch_engine **out)
+/* What runs the batch; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
+static batten_status choose(batten_context *context, batten_search_options *options,
+                            search_algorithm_run **run)
 {
-	const batch *b = (const batch *)work;
-	const search_shape shape = search_shape_choose(b->plan, index, device);
-	search_engine *engine = NULL;
-	const batten_status status = search_engine_open(work->context, &shape, &engine, NULL);
-	if (status == BATTEN_OK)
-		*out = search_engine_base(engine);
-	return status;
-}
-
-static size_t block_of(const batch_work *work, const batch_engine *engine)
-{
-	return search_engine_block((const search_engine *)engine, ((const batch *)work)->plan);
-}
-
-static batten_status run_block(batch_work *work, batch_engine *engine, const size_t *which,
-                               size_t count)
-{
-	const batch *b = (const batch *)work;
-	return search_engine_run((search_engine *)engine, b->plan, b->problems, which, count, b->y_m,
-	                         b->results);
-}
-
-static batten_status run_on_reference(batch_work *work)
-{
-	const batch *b = (const batch *)work;
-	search_reference reference = { 0 };
-	batten_status status = search_reference_create(b->plan, &reference);
-	size_t which = 0;
-	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
-		search_reference_run(&reference, &b->problems[which],
-		                     b->y_m + which * b->plan->station_count * b->plan->waterline_count,
-		                     &b->results[which]);
-	search_reference_release(&reference);
-	return status;
-}
-
-/* The sound problems in the order they are handed out. */
-static size_t order_problems(const batch *b, size_t count, search_weights *weights, size_t *order)
-{
-	size_t sound = 0;
-	for (size_t p = 0; p < count; p++) {
-		const char *fault = search_problem_fault(b->plan, &b->problems[p]);
-		if (fault)
-			b->results[p] = search_result_refused(fault);
-		else
-			weights[sound++] = (search_weights){ b->problems[p].w1, b->problems[p].w2, p };
-	}
-	search_order(weights, sound, order);
-	return sound;
-}
-
-/* Two probes a direction and iteration, and what the searches counted beyond. */
-static batten_status count_probes(const batch *b, size_t count)
-{
-	uint8_t *scratch = batten_allocate(b->work.context, b->plan->station_count,
-	                                   b->plan->waterline_count);
-	if (!scratch)
-		return BATTEN_MEMORY;
-	for (size_t p = 0; p < count; p++)
-		if (b->results[p].end != BATTEN_SEARCH_REFUSED)
-			b->results[p].probes += 2 * (uint64_t)b->results[p].iterations *
-			                        search_problem_directions(b->plan, &b->problems[p], scratch);
-	batten_release(b->work.context, scratch);
+	if (options->algorithm == BATTEN_ALGORITHM_AUTO)
+		options->algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
+	if (!*run)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "search algorithm %s: auto or multilevel is expected",
+		                   batten_search_algorithm_text(options->algorithm));
 	return BATTEN_OK;
-}
-
-static batten_status run_batch(batch *b, size_t count, batten_run *run)
-{
-	batten_context *context = b->work.context;
-	size_t *order = batten_allocate(context, count, sizeof *order);
-	search_weights *weights = batten_allocate(context, count, sizeof *weights);
-	batten_status status = order && weights ? BATTEN_OK : BATTEN_MEMORY;
-	if (status == BATTEN_OK) {
-		const size_t sound = order_problems(b, count, weights, order);
-		status = work_queue_create(context, order, sound, &b->work.queue);
-	}
-	if (status == BATTEN_OK)
-		status = batch_work_run(&b->work, run);
-	if (status == BATTEN_OK)
-		status = count_probes(b, count);
-	work_queue_release(context, &b->work.queue);
-	batten_release(context, weights);
-	batten_release(context, order);
-	return status;
 }
 
 batten_status batten_search_batch(batten_context *context, const batten_grid *grid, size_t count,
@@ -106,25 +32,36 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
                                   const batten_search_options *options, double *y_m,
                                   batten_search_result *results, batten_run *run)
 {
-	batch b = { .work = { .context = context,
-		                  .open = open_engine,
-		                  .block = block_of,
-		                  .run = run_block,
-		                  .run_reference = run_on_reference },
-		        .problems = problems,
-		        .y_m = y_m,
-		        .results = results };
 	batten_run told = { .strict = true };
-	batten_status status = search_plan_create(context, grid, count, problems, options, &b.plan);
+	batten_search_options chosen;
+	search_algorithm_run *algorithm = NULL;
+	batten_status status = search_options_check(context, options, &chosen);
+	if (status == BATTEN_OK)
+		status = choose(context, &chosen, &algorithm);
 	if (status != BATTEN_OK)
 		return status;
-	b.work.device = b.plan->options.device;
-	if (count > 0)
-		status = run_batch(&b, count, &told);
-	search_plan_destroy(b.plan);
+	const search_call call = { context, grid, count, problems, &chosen, y_m, results };
+	status = algorithm(&call, &told);
 	if (status != BATTEN_OK)
 		return status;
+	for (size_t p = 0; p < count; p++)
+		results[p].algorithm = chosen.algorithm;
 	if (run)
 		*run = told;
 	return search_results_judge(context, count, results);
+}
+
+const char *batten_search_algorithm_text(batten_search_algorithm algorithm)
+{
+	switch (algorithm) {
+	case BATTEN_ALGORITHM_AUTO:
+		return "auto";
+	case BATTEN_ALGORITHM_TEXTBOOK:
+		return "textbook";
+	case BATTEN_ALGORITHM_MULTILEVEL:
+		return "multilevel";
+	case BATTEN_ALGORITHM_BLOCK:
+		return "block";
+	}
+	return "unknown";
 }

@@ -126,7 +126,8 @@ static json_t *method_json(const fair_job *job)
 	const bool net = job->options.variables == BATTEN_VARIABLES_NET;
 	json_t *object = json_object();
 	set(object, "method", json_string("search"));
-	set(object, "search", json_string("multilevel"));
+	set(object, "search",
+	    json_string(batten_search_algorithm_text(batten_fairing_result(job->fairing)->algorithm)));
 	set(object, "variables", json_string(net ? "net" : "offsets"));
 	set(object, "fairness", json_string(fair_fairness_text(job->options.fairness)));
 	set(object, "smooth", json_boolean(!request->no_smooth));

@@ -190,6 +190,15 @@ static batten_status make_tables(net_plan *plan, const surface_topology *t, unsi
 	return status;
 }
 
+static batten_status check_algorithm(batten_context *context, batten_search_algorithm algorithm)
+{
+	if (algorithm == BATTEN_ALGORITHM_AUTO || algorithm == BATTEN_ALGORITHM_MULTILEVEL)
+		return BATTEN_OK;
+	return batten_fail(context, BATTEN_USAGE,
+	                   "search algorithm %s: auto or multilevel is expected for a net",
+	                   batten_search_algorithm_text(algorithm));
+}
+
 batten_status batten_net_search_batch(batten_context *context, size_t count,
                                       const batten_net_problem *problems,
                                       const batten_net_options *options, double *y_m,
@@ -203,6 +212,8 @@ batten_status batten_net_search_batch(batten_context *context, size_t count,
 	batten_status status = check_options(context, options, &chosen);
 	if (status == BATTEN_OK)
 		status = search_options_check(context, &chosen.search, &plan.options);
+	if (status == BATTEN_OK)
+		status = check_algorithm(context, chosen.search.algorithm);
 	if (status == BATTEN_OK && count > 0)
 		status = check_topology(context, count, problems, &topology);
 	if (status == BATTEN_OK && count > 0)
@@ -219,6 +230,8 @@ batten_status batten_net_search_batch(batten_context *context, size_t count,
 	batten_release(context, leader);
 	if (status != BATTEN_OK)
 		return status;
+	for (size_t p = 0; p < count; p++)
+		results[p].algorithm = BATTEN_ALGORITHM_MULTILEVEL;
 	if (run)
 		*run = told;
 	return search_results_judge(context, count, results);

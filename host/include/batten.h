@@ -384,10 +384,21 @@ typedef struct batten_search_problem {
 	double half_beam_m;              /* h, > 0 */
 } batten_search_problem;
 
+/* How a search looks for the minimum (kernels/README.md). */
+typedef enum batten_search_algorithm {
+	BATTEN_ALGORITHM_AUTO,       /* the fastest that applies */
+	BATTEN_ALGORITHM_TEXTBOOK,   /* Hooke and Jeeves as published (thesis 7.2): to compare with */
+	BATTEN_ALGORITHM_MULTILEVEL, /* probes along hats of several widths: any objective */
+	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand */
+} batten_search_algorithm;
+/* "auto", "textbook", "multilevel", "block". */
+BATTEN_API const char *batten_search_algorithm_text(batten_search_algorithm algorithm);
+
 typedef struct batten_search_options {
 	size_t struct_size;
 	int device; /* an index of batten_device_count(), or AUTO, REFERENCE */
 	batten_precision precision;
+	batten_search_algorithm algorithm; /* BATTEN_ALGORITHM_AUTO */
 	double first_step;        /* of h: 0.02 */
 	double last_step;         /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
 	unsigned iteration_limit; /* 400 */
@@ -413,8 +424,9 @@ BATTEN_API const char *batten_search_end_text(batten_search_end end);
 
 typedef struct batten_search_result {
 	batten_search_end end;
+	batten_search_algorithm algorithm; /* the one that ran */
 	unsigned iterations;
-	uint64_t probes; /* trial values of a direction */
+	uint64_t probes; /* trial values: of a direction, or (BLOCK) of the integrand at a node */
 	double objective_start, objective_end;
 	double last_step_m;
 	char message[96]; /* for REFUSED */
@@ -425,14 +437,15 @@ typedef struct batten_run {
 	char device[128];  /* "reference" for the C path; several joined by " + " */
 	bool strict;       /* every device equals the C path bit for bit */
 	double seconds;    /* wall time of the searches, without building kernels */
+	double lane_use;   /* part of the lanes' turns that were of use to a search; 0: not known */
 	char warning[256]; /* one line, "" when nothing is to be said */
 } batten_run;
 
-/* Runs count searches by the multilevel Hooke-Jeeves method (kernels/README.md). y_m is the caller's,
+/* Runs count pattern searches (kernels/README.md). y_m is the caller's,
  * [count][waterlines][stations]; results [count]; run may be NULL. The result of a search does not
  * depend on the others, on their order or number, nor (when strict) on what ran it.
- * Returns INCOMPLETE when a search was refused or met its limit. Errors: USAGE, DEVICE, KERNEL,
- * MEMORY. */
+ * Returns INCOMPLETE when a search was refused or met its limit. Errors: USAGE (among them an
+ * algorithm that this version lacks), DEVICE, KERNEL, MEMORY. */
 BATTEN_API batten_status batten_search_batch(batten_context *context, const batten_grid *grid,
                                              size_t count, const batten_search_problem *problems,
                                              const batten_search_options *options, double *y_m,
@@ -1194,7 +1207,8 @@ typedef struct batten_net_problem {
 
 typedef struct batten_net_options {
 	size_t struct_size;
-	batten_search_options search; /* first_step 0.01, else as its own default */
+	/* first_step 0.01, else as its own default; nets know MULTILEVEL only, which is what AUTO takes */
+	batten_search_options search;
 	batten_fairness fairness;     /* BATTEN_FAIRNESS_BENDING */
 	unsigned gauss_points;        /* a knot span and direction, 1..16; 0 takes the order */
 	/* [count_v][count_u], the same for the whole batch: index (row * count_u + column) of the pole

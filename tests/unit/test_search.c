@@ -349,7 +349,7 @@ static void test_bad_arguments(void **state)
 	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e4);
 	double *y = room_for(c.nodes);
 	batten_search_result result;
-	for (int fault = 0; fault < 9; fault++) {
+	for (int fault = 0; fault < 11; fault++) {
 		batten_search_options options = reference_options();
 		batten_grid grid = c.grid;
 		double x[21];
@@ -379,6 +379,12 @@ static void test_bad_arguments(void **state)
 			break;
 		case 7:
 			options.first_step = options.last_step = 1e-3;
+			break;
+		case 8:
+			options.algorithm = BATTEN_ALGORITHM_TEXTBOOK;
+			break;
+		case 9:
+			options.algorithm = (batten_search_algorithm)99;
 			break;
 		default:
 			options.device = -7;

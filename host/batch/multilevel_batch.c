@@ -1,0 +1,122 @@
+/* The multilevel search: one queue of searches, one worker a device, or the C path's threads. */
+#include "batch/search_batch.h"
+#include "batch/search_engine.h"
+#include "batch/search_reference.h"
+#include "batch/search_result.h"
+#include "batch/workers.h"
+
+typedef struct batch {
+	batch_work work; /* first: the callbacks get it */
+	search_plan *plan;
+	const batten_search_problem *problems;
+	double *y_m;
+	batten_search_result *results;
+} batch;
+
+static batten_status open_engine(batch_work *work, size_t index, const batten_device *device,
+                                 batch_engine **out)
+{
+	const batch *b = (const batch *)work;
+	const search_shape shape = search_shape_choose(b->plan, index, device);
+	search_engine *engine = NULL;
+	const batten_status status = search_engine_open(work->context, &shape, &engine, NULL);
+	if (status == BATTEN_OK)
+		*out = search_engine_base(engine);
+	return status;
+}
+
+static size_t block_of(const batch_work *work, const batch_engine *engine)
+{
+	return search_engine_block((const search_engine *)engine, ((const batch *)work)->plan);
+}
+
+static batten_status run_block(batch_work *work, batch_engine *engine, const size_t *which,
+                               size_t count)
+{
+	const batch *b = (const batch *)work;
+	return search_engine_run((search_engine *)engine, b->plan, b->problems, which, count, b->y_m,
+	                         b->results);
+}
+
+static batten_status run_on_reference(batch_work *work)
+{
+	const batch *b = (const batch *)work;
+	search_reference reference = { 0 };
+	batten_status status = search_reference_create(b->plan, &reference);
+	size_t which = 0;
+	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
+		search_reference_run(&reference, &b->problems[which],
+		                     b->y_m + which * b->plan->station_count * b->plan->waterline_count,
+		                     &b->results[which]);
+	search_reference_release(&reference);
+	return status;
+}
+
+/* The sound problems in the order they are handed out. */
+static size_t order_problems(const batch *b, size_t count, search_weights *weights, size_t *order)
+{
+	size_t sound = 0;
+	for (size_t p = 0; p < count; p++) {
+		const char *fault = search_problem_fault(b->plan, &b->problems[p]);
+		if (fault)
+			b->results[p] = search_result_refused(fault);
+		else
+			weights[sound++] = (search_weights){ b->problems[p].w1, b->problems[p].w2, p };
+	}
+	search_order(weights, sound, order);
+	return sound;
+}
+
+/* Two probes a direction and iteration, and what the searches counted beyond. */
+static batten_status count_probes(const batch *b, size_t count)
+{
+	uint8_t *scratch = batten_allocate(b->work.context, b->plan->station_count,
+	                                   b->plan->waterline_count);
+	if (!scratch)
+		return BATTEN_MEMORY;
+	for (size_t p = 0; p < count; p++)
+		if (b->results[p].end != BATTEN_SEARCH_REFUSED)
+			b->results[p].probes += 2 * (uint64_t)b->results[p].iterations *
+			                        search_problem_directions(b->plan, &b->problems[p], scratch);
+	batten_release(b->work.context, scratch);
+	return BATTEN_OK;
+}
+
+static batten_status run_batch(batch *b, size_t count, batten_run *run)
+{
+	batten_context *context = b->work.context;
+	size_t *order = batten_allocate(context, count, sizeof *order);
+	search_weights *weights = batten_allocate(context, count, sizeof *weights);
+	batten_status status = order && weights ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK) {
+		const size_t sound = order_problems(b, count, weights, order);
+		status = work_queue_create(context, order, sound, &b->work.queue);
+	}
+	if (status == BATTEN_OK)
+		status = batch_work_run(&b->work, run);
+	if (status == BATTEN_OK)
+		status = count_probes(b, count);
+	work_queue_release(context, &b->work.queue);
+	batten_release(context, weights);
+	batten_release(context, order);
+	return status;
+}
+
+batten_status multilevel_batch_run(const search_call *call, batten_run *run)
+{
+	batch b = { .work = { .context = call->context,
+		                  .device = call->options->device,
+		                  .open = open_engine,
+		                  .block = block_of,
+		                  .run = run_block,
+		                  .run_reference = run_on_reference },
+		        .problems = call->problems,
+		        .y_m = call->y_m,
+		        .results = call->results };
+	batten_status status = search_plan_create(call->context, call->grid, call->count,
+	                                          call->problems, call->options, &b.plan);
+	if (status == BATTEN_OK && call->count > 0)
+		status = run_batch(&b, call->count, run);
+	search_plan_destroy(b.plan);
+	return status;
+}

@@ -1,0 +1,22 @@
+/* A batch of searches as the caller gave it, and the algorithms that run one. Each has files of its
+ * own, named after it; the multilevel search's are those named search_. */
+#ifndef BATTEN_BATCH_SEARCH_BATCH_H
+#define BATTEN_BATCH_SEARCH_BATCH_H
+
+#include "core/context.h"
+
+typedef struct search_call {
+	batten_context *context;
+	const batten_grid *grid;
+	size_t count;
+	const batten_search_problem *problems;
+	const batten_search_options *options; /* checked; of the algorithm that is to run */
+	double *y_m;                          /* [count][waterlines][stations] */
+	batten_search_result *results;        /* [count] */
+} search_call;
+
+/* Runs the batch: every result is set, but for its algorithm, or an error returned. run is told what
+ * ran. Errors: USAGE, DEVICE, KERNEL, MEMORY. */
+batten_status multilevel_batch_run(const search_call *call, batten_run *run);
+
+#endif
