@@ -17,10 +17,11 @@ static const cli_command command = {
 	.example =
 		"  batten fair data/hulls/npl_parent.csv --out demo\n"
 		"  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n"
+		"  batten fair data/hulls/npl_parent.csv --fairness mean --longitudinal 4\n"
 		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
-		"NAME-faired by default. Minimises w1 * bending energy + w2 * closeness / h^4 (h: half-beam) over\n"
+		"NAME-faired by default. Minimises w1 * fairness + w2 * closeness / h^4 (h: half-beam) over\n"
 		"the positive offsets; profile points stay. Without weights the change is held to 0.75 of the\n"
 		"noise of the offsets. f32 comes within 3e-4 of the objective that f64 reaches.\n"
 		"--variables net fits a B-spline surface and searches y of its poles; x, z and knots stay. Rows run\n"
@@ -225,7 +226,11 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "variables", CLI_TEXT, &request->variables, "NAME",
 		  "offsets (default) of the table, or net: poles of a surface" },
 		{ "fairness", CLI_TEXT, &request->fairness, "NAME",
-		  "bending (default); with --variables net also mean, gauss, mvc" },
+		  "bending (default), mean, gauss; with --variables net also mvc" },
+		{ "longitudinal", CLI_NUMBER, &request->longitudinal, "X",
+		  "weight of squared curvature along the waterlines (1)" },
+		{ "transverse", CLI_NUMBER, &request->transverse, "X",
+		  "weight of squared curvature square to them in the surface (1)" },
 		{ "net", CLI_TEXT, &request->net, "MxN",
 		  "poles along the hull and from keel to deck (chosen from the table and its noise)" },
 		{ "order", CLI_TEXT, &request->order, "KxL",
@@ -267,6 +272,8 @@ batten_status cli_fair(int argc, char **argv)
 		                     .fairness = "bending",
 		                     .w1 = NAN,
 		                     .w2 = NAN,
+		                     .longitudinal = NAN,
+		                     .transverse = NAN,
 		                     .iterations = UINT_MAX,
 		                     .device = BATTEN_DEVICE_AUTO,
 		                     .precision = BATTEN_F64,

@@ -13,7 +13,7 @@ typedef struct fair_request {
 	const char *hull_path, *out, *method, *search, *variables, *fairness;
 	const char *max_distance, *lock, *lower_path, *upper_path;
 	const char *net, *order, *tangents, *rounded; /* NULL: not given */
-	double w1, w2;                                /* NaN: not given */
+	double w1, w2, longitudinal, transverse;      /* NaN: not given */
 	bool no_smooth;
 	unsigned iterations, seed; /* iterations UINT_MAX: not given */
 	int device;

@@ -1,6 +1,7 @@
 /* What the options of batten fair ask of the net. */
 #include "fair_job.h"
 
+#include <math.h>
 #include <string.h>
 
 static const char *const fairness_names[] = { "bending", "mean", "gauss", "mvc" };
@@ -47,11 +48,10 @@ static batten_status check_offsets(const fair_request *request, const batten_fai
 		if (given[i].text)
 			return cli_usage("fair", "--%s is about a net: --variables net was expected with it",
 			                 given[i].name);
-	if (options->fairness != BATTEN_FAIRNESS_BENDING)
-		return cli_usage("fair",
-		                 "--fairness: found '%s', expected bending with --variables offsets; the "
-		                 "others need --variables net",
-		                 request->fairness);
+	if (options->fairness == BATTEN_FAIRNESS_VARIATION)
+		return cli_usage(
+			"fair", "--fairness: found 'mvc', expected bending, mean or gauss with --variables "
+					"offsets: variation of curvature needs --variables net");
 	return BATTEN_OK;
 }
 
@@ -63,6 +63,10 @@ batten_status fair_net_options_read(const fair_request *request, batten_fair_opt
 	if (strcmp(request->variables, "net") != 0)
 		return check_offsets(request, options);
 	options->variables = BATTEN_VARIABLES_NET;
+	if (!isnan(request->longitudinal) || !isnan(request->transverse))
+		return cli_usage(
+			"fair", "--longitudinal and --transverse are about offsets: --variables offsets was "
+					"expected with them");
 	if (request->lower_path || request->upper_path)
 		return cli_usage("fair",
 		                 "--%s bounds the offsets of a table, not the poles of a net: --variables "

@@ -143,6 +143,10 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 	options->smooth = !request->no_smooth;
 	options->search.device = request->device;
 	options->search.precision = request->precision;
+	if (!isnan(request->longitudinal))
+		options->search.longitudinal_weight = request->longitudinal;
+	if (!isnan(request->transverse))
+		options->search.transverse_weight = request->transverse;
 	if (request->iterations != UINT_MAX)
 		options->search.iteration_limit = request->iterations;
 	if (request->max_distance)

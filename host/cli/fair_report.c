@@ -130,6 +130,8 @@ static json_t *method_json(const fair_job *job)
 	    json_string(batten_search_algorithm_text(batten_fairing_result(job->fairing)->algorithm)));
 	set(object, "variables", json_string(net ? "net" : "offsets"));
 	set(object, "fairness", json_string(fair_fairness_text(job->options.fairness)));
+	set(object, "longitudinal_weight", number(job->options.search.longitudinal_weight));
+	set(object, "transverse_weight", number(job->options.search.transverse_weight));
 	set(object, "smooth", json_boolean(!request->no_smooth));
 	set(object, "w1", number(facts.w1));
 	set(object, "w2", number(facts.w2));

@@ -32,6 +32,21 @@ expect 0 fair "$hull" --max-distance 0% --out out
 same_form "$hull" out/faired.csv
 [ "$(moved out)" = 0 ] || fail 'moved though nothing may'
 
+# --fairness and the weights of directions: each lowers its own energy, and the report names them.
+for fairness in mean gauss; do
+	expect 0 fair "$hull" $weights --fairness $fairness --out out
+	holds "--fairness $fairness" 'after < before' \
+		before="$(member out/report.json smoothed energy_$fairness)" \
+		after="$(member out/report.json after energy_$fairness)"
+	[ "$(member out/report.json method fairness)" = $fairness ] || fail 'the report names another'
+done
+expect 0 fair "$hull" $weights --longitudinal 4 --transverse 0.5 --out out
+[ "$(member out/report.json method longitudinal_weight)" = 4.0 ] || fail 'weight along the hull'
+[ "$(member out/report.json method transverse_weight)" = 0.5 ] || fail 'weight across the hull'
+expect 2 fair "$hull" --longitudinal 0 --transverse 0 --out out
+one_line
+says 'transverse weight'
+
 # --lock: a station, a waterline and a point stay to the last bit, their neighbours do not.
 expect 0 fair "$hull" $weights --lock station:4.8,waterline:1,point:8@0.47368421052631576 --out out
 for x in 0.8 4.8 8; do
