@@ -202,6 +202,7 @@ static json_t *search_json(const fair_job *job)
 {
 	const batten_search_result *result = batten_fairing_result(job->fairing);
 	const batten_run *run = batten_fairing_run(job->fairing);
+	const batten_certificate *certificate = batten_fairing_certificate(job->fairing);
 	json_t *object = json_object();
 	set(object, "status", json_string(batten_search_end_text(result->end)));
 	set(object, "iterations", count(result->iterations));
@@ -209,8 +210,8 @@ static json_t *search_json(const fair_job *job)
 	set(object, "objective_before", number(result->objective_start));
 	set(object, "objective_after", number(result->objective_end));
 	set(object, "last_step_m", number(result->last_step_m));
-	/* Known only to methods that see the curvature of the objective; this one probes values. */
-	set(object, "gap_estimate", json_null());
+	set(object, "gap_estimate", certificate ? number(certificate->gap_estimate) : json_null());
+	set(object, "gradient_per_m", certificate ? number(certificate->gradient_per_m) : json_null());
 	set(object, "device", json_string(run->device));
 	set(object, "strict", json_boolean(run->strict));
 	set(object, "precision", json_string(job->request->precision == BATTEN_F64 ? "f64" : "f32"));

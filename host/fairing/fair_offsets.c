@@ -73,10 +73,15 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	if (!y)
 		return BATTEN_MEMORY;
 	const batten_grid grid = { hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
-	const batten_status status = batten_search_batch(context, &grid, count, problems,
-	                                                 &chosen_search, y, results, &fairing->run);
+	batten_status status = batten_search_batch(context, &grid, count, problems, &chosen_search, y,
+	                                           results, &fairing->run);
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
+		const batten_status judged = batten_search_certify_batch(
+			context, &grid, 1, &problems[chosen], &chosen_search, y + chosen * nodes,
+			&fairing->certificate);
+		if (judged != BATTEN_OK)
+			status = judged;
 		fairing->result = results[chosen];
 		fairing->facts.w1 = problems[chosen].w1;
 		fairing->facts.w2 = problems[chosen].w2;

@@ -45,6 +45,11 @@ const batten_search_result *batten_fairing_result(const batten_fairing *fairing)
 	return &fairing->result;
 }
 
+const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing)
+{
+	return fairing->faired_surface ? NULL : &fairing->certificate;
+}
+
 const batten_run *batten_fairing_run(const batten_fairing *fairing)
 {
 	return &fairing->run;

@@ -12,6 +12,7 @@ struct batten_fairing {
 	batten_replacement *replacements;
 	size_t replacement_count;
 	batten_search_result result;
+	batten_certificate certificate; /* of result, with offsets */
 	batten_run run;
 	batten_fairing_facts facts;
 	batten_surface *fitted_surface, *faired_surface; /* NULL with offsets */

@@ -115,12 +115,6 @@ batten_status fit_net_solve(const struct fit_points *points, const struct fit_ed
                             double stiffness, struct batten_surface *surface, bool fill,
                             size_t *free_pole);
 
-/* Symmetric positive definite system with the lower band in rows: a[row * (width + 1) + width] is
- * the diagonal, width places before it the others. Returns count, or the first row whose pivot is
- * rounding: it depends on those before. */
-size_t fit_band_factor(size_t count, size_t width, double *a);
-void fit_band_solve(size_t count, size_t width, const double *factor, double *x);
-
 /* ------------------------------------------------------------------------------------------------
  * Distance
  * --------------------------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
  * Cholesky and refined on the residuals of the points, which takes away what the small stiffness
  * put in and what squaring the matrix lost. Poles that no point determines would lie where the net is
  * straightest: the caller says whether that will do. */
+#include "core/band.h"
 #include "geometry/fit.h"
 
 #include <math.h>
@@ -163,7 +164,7 @@ static bool refine(struct system *system, size_t coordinate)
 					                                         residual;
 			}
 	}
-	fit_band_solve(system->unknowns, system->width, system->matrix, system->vector);
+	band_solve(system->unknowns, system->width, system->matrix, system->vector);
 	double largest_step = 0.0;
 	double largest = 0.0;
 	for (size_t i = 0; i < s->count_u; i++)
@@ -198,12 +199,12 @@ static size_t solve(struct system *system, const struct fit_edges *edges, bool f
 		return SIZE_MAX; /* all of it lies in the centreplane */
 	if (!fill) {
 		assemble(system, false);
-		const size_t done = fit_band_factor(system->unknowns, system->width, system->matrix);
+		const size_t done = band_factor(system->unknowns, system->width, system->matrix);
 		if (done < system->unknowns)
 			return pole_of(system, done);
 	}
 	assemble(system, true);
-	const size_t done = fit_band_factor(system->unknowns, system->width, system->matrix);
+	const size_t done = band_factor(system->unknowns, system->width, system->matrix);
 	if (done < system->unknowns)
 		return pole_of(system, done);
 	const size_t coordinates[2] = { for_y ? 1 : 0, 2 };

@@ -399,9 +399,9 @@ typedef struct batten_search_options {
 	int device; /* an index of batten_device_count(), or AUTO, REFERENCE */
 	batten_precision precision;
 	batten_search_algorithm algorithm; /* BATTEN_ALGORITHM_AUTO */
-	double first_step;        /* of h: 0.02 */
-	double last_step;         /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
-	unsigned iteration_limit; /* 400 */
+	double first_step;                 /* of h: 0.02 */
+	double last_step;                  /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
+	unsigned iteration_limit;          /* 400 */
 	unsigned lanes;      /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
 	unsigned work_group; /* work-items a search is shared by; 0 chooses */
 	/* The rest is of searches over offset grids only. */
@@ -450,6 +450,33 @@ BATTEN_API batten_status batten_search_batch(batten_context *context, const batt
                                              size_t count, const batten_search_problem *problems,
                                              const batten_search_options *options, double *y_m,
                                              batten_search_result *results, batten_run *run);
+
+/* What the end of a search is worth, by the exact derivatives of its objective in double, whatever
+ * probed it: free are the offsets that are not fixed, nor held at a bound by the gradient. The
+ * objective is not convex, so all of it is local: it knows nothing of other minima. */
+typedef struct batten_certificate {
+	double objective;      /* F at y, in double */
+	double gradient_per_m; /* norm of the projected gradient: dF/dy over the free offsets */
+	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
+	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
+	 * on their way to one). NaN where H is not positive definite over them,
+	 * that is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
+	double gap_estimate;
+	size_t free_count;
+	char message[96]; /* why there is no estimate; else "" */
+} batten_certificate;
+
+/* Judges the ends of count searches (thesis 7.2 stops by the step alone). Problems and y_m as given to
+ * and by batten_search_batch, of any algorithm; of the options fairness, weights and precision count.
+ * A search costs about as much as 20 of its objectives and a Cholesky factor of bandwidth 2 lines.
+ * Returns INCOMPLETE when a problem is invalid or y not finite (its numbers are NaN, message says why).
+ * Errors: USAGE, MEMORY. */
+BATTEN_API batten_status batten_search_certify_batch(batten_context *context,
+                                                     const batten_grid *grid, size_t count,
+                                                     const batten_search_problem *problems,
+                                                     const batten_search_options *options,
+                                                     const double *y_m,
+                                                     batten_certificate *certificates);
 
 /* ------------------------------------------------------------------------------------------------
  * Varying a parent hull
@@ -1209,8 +1236,8 @@ typedef struct batten_net_options {
 	size_t struct_size;
 	/* first_step 0.01, else as its own default; nets know MULTILEVEL only, which is what AUTO takes */
 	batten_search_options search;
-	batten_fairness fairness;     /* BATTEN_FAIRNESS_BENDING */
-	unsigned gauss_points;        /* a knot span and direction, 1..16; 0 takes the order */
+	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING */
+	unsigned gauss_points;    /* a knot span and direction, 1..16; 0 takes the order */
 	/* [count_v][count_u], the same for the whole batch: index (row * count_u + column) of the pole
 	 * that a pole moves with, both by the same distance, which stays in the boxes of both; its own
 	 * index: the pole is free or leads. NULL: all are free. An edge keeps its tangents when the row
@@ -1334,6 +1361,8 @@ BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairin
 BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
 BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
 BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
+/* Of the result; NULL with NET. */
+BATTEN_API const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing);
 BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
 
 typedef struct batten_fairing_facts {

@@ -78,6 +78,10 @@ for name in volume_m3 cb cp lcb_pct_lbp_fwd fn_per_m2 energy_bending; do
 done
 prints '^written to demo: '
 
+holds 'the certificate' 'gap >= 0 && gap <= 1e-6 && g > 0' \
+	gap="$(member demo/report.json search gap_estimate)" \
+	g="$(member demo/report.json search gradient_per_m)"
+
 without_pictures
 expect 0 fair "$hull" --w1 1 --w2 1e4 --out given
 demo given

@@ -1,4 +1,5 @@
 /* The parts of a fit: banded systems and nearest points, against what is known. */
+#include "core/band.h"
 #include "geometry/fit.h"
 #include "unit/fit_fixture.h"
 
@@ -24,8 +25,8 @@ static void test_band(void **state)
 				b[row] += a[high * STRIDE + WIDTH - (high - low)] * x[column];
 		}
 	}
-	assert_int_equal(fit_band_factor(COUNT, WIDTH, a), COUNT);
-	fit_band_solve(COUNT, WIDTH, a, b);
+	assert_int_equal(band_factor(COUNT, WIDTH, a), COUNT);
+	band_solve(COUNT, WIDTH, a, b);
 	for (size_t row = 0; row < COUNT; row++)
 		assert_near(b[row], x[row], 1e-13, "solution");
 }
@@ -38,10 +39,10 @@ static void test_band_refusals(void **state)
 	double dependent[4] = { 0, 1, 1, 1 };
 	double none[4] = { 0, 1, NAN, 1 };
 	double sound[4] = { 0, 1, 0.5, 1 };
-	assert_int_equal(fit_band_factor(2, 1, zero), 1);
-	assert_int_equal(fit_band_factor(2, 1, dependent), 1);
-	assert_int_equal(fit_band_factor(2, 1, none), 1);
-	assert_int_equal(fit_band_factor(2, 1, sound), 2);
+	assert_int_equal(band_factor(2, 1, zero), 1);
+	assert_int_equal(band_factor(2, 1, dependent), 1);
+	assert_int_equal(band_factor(2, 1, none), 1);
+	assert_int_equal(band_factor(2, 1, sound), 2);
 }
 
 /* The plane y = 1 over x 0..2, z 0..1, its knots not evenly spread. */

@@ -1,12 +1,12 @@
 /* Cholesky factor of a banded matrix, in one fixed order whatever the machine. */
-#include "geometry/fit.h"
+#include "core/band.h"
 
 #include <math.h>
 
 /* Pivots below this part of the diagonal have lost all but a few digits. */
 static const double least_pivot = 1e-11;
 
-size_t fit_band_factor(size_t count, size_t width, double *a)
+size_t band_factor(size_t count, size_t width, double *a)
 {
 	const size_t stride = width + 1;
 	for (size_t row = 0; row < count; row++) {
@@ -29,7 +29,7 @@ size_t fit_band_factor(size_t count, size_t width, double *a)
 	return count;
 }
 
-void fit_band_solve(size_t count, size_t width, const double *factor, double *x)
+void band_solve(size_t count, size_t width, const double *factor, double *x)
 {
 	const size_t stride = width + 1;
 	for (size_t row = 0; row < count; row++) {
