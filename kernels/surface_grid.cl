@@ -15,7 +15,7 @@
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/surface_layout.h"
-#include "shared/surface_point.h"
+#include "shared/surface_variation.h"
 
 #if !defined(SURFACE_OUTPUT)
 #define SURFACE_OUTPUT SURFACE_OUTPUT_EVERYTHING
@@ -25,8 +25,8 @@
 #define OUT_DOUBLE BATTEN_DOUBLE
 #endif
 #define DIMENSION (3 + RATIONAL)
-#define WEIGHT (3 * RATIONAL) /* its place in a pole, or one that is there */
-#define DERIVATIVES (SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION ? 1 : 3)
+#define DERIVATIVES SURFACE_DERIVATIVES(SURFACE_OUTPUT)
+#define TABLE_SIZE(order) SURFACE_TABLE_SIZE(SURFACE_TABLE_ROWS(SURFACE_OUTPUT), order)
 #define VALUES                                                                                     \
 	(SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION    ? SURFACE_POSITION_COUNT                         \
 	 : SURFACE_OUTPUT == SURFACE_OUTPUT_CURVATURE ? SURFACE_CURVATURE_COUNT                        \
@@ -37,7 +37,7 @@
 #define ROLLED _Pragma("unroll 1")
 #define UNROLLED _Pragma("unroll")
 
-/* One column of the net taken together along v: point, first and second derivative. */
+/* One column of the net taken together along v: the point and its derivatives. */
 static inline void collapse_column(global const real *poles, global const scalar *table,
                                    local real *pole)
 {
@@ -76,17 +76,38 @@ static inline surface_triple point_of(const local real *poles, global const scal
 		const real value = SPREAD(table[b]);
 		at = triple_add(value, triple_at(poles + b * DIMENSION), at);
 		if (RATIONAL)
-			weight = FUSED(value, poles[b * DIMENSION + WEIGHT], weight);
+			weight = FUSED(value, poles[b * DIMENSION + 3], weight);
 	}
 	return RATIONAL ? surface_divide_at(at, weight) : at;
+}
+
+/* The weight of a rational surface and its derivatives. */
+static inline surface_weight weight_of(const local real *poles, global const scalar *table)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	surface_weight w = { zero, zero, zero, zero, zero, zero };
+	UNROLLED
+	for (int b = 0; b < ORDER_U; b++) {
+		const local real *pole = poles + b * DERIVATIVES * DIMENSION;
+		const real value = SPREAD(table[b]);
+		const real slope = SPREAD(table[ORDER_U + b]);
+		const real bend = SPREAD(table[2 * ORDER_U + b]);
+		const real at_w = pole[3];
+		const real v_w = pole[DIMENSION + 3];
+		w.at = FUSED(value, at_w, w.at);
+		w.u = FUSED(slope, at_w, w.u);
+		w.uu = FUSED(bend, at_w, w.uu);
+		w.v = FUSED(value, v_w, w.v);
+		w.uv = FUSED(slope, v_w, w.uv);
+		w.vv = FUSED(value, pole[2 * DIMENSION + 3], w.vv);
+	}
+	return w;
 }
 
 static inline surface_jet jet_of(const local real *poles, global const scalar *table)
 {
 	const surface_triple none = triple_zero();
-	const real zero = SPREAD(LITERAL(0.0));
 	surface_jet j = { none, none, none, none, none, none };
-	surface_weight w = { zero, zero, zero, zero, zero, zero };
 	UNROLLED
 	for (int b = 0; b < ORDER_U; b++) {
 		const local real *pole = poles + b * DERIVATIVES * DIMENSION;
@@ -101,19 +122,40 @@ static inline surface_jet jet_of(const local real *poles, global const scalar *t
 		j.v = triple_add(value, v, j.v);
 		j.uv = triple_add(slope, v, j.uv);
 		j.vv = triple_add(value, triple_at(pole + 2 * DIMENSION), j.vv);
+	}
+	return RATIONAL ? surface_divide(j, weight_of(poles, table)) : j;
+}
+
+#if SURFACE_OUTPUT == SURFACE_OUTPUT_VARIATION
+/* What the jet leaves out. */
+static inline surface_third third_of(const local real *poles, global const scalar *table,
+                                     surface_jet j)
+{
+	const surface_triple none = triple_zero();
+	const real zero = SPREAD(LITERAL(0.0));
+	surface_third t = { none, none, none, none };
+	surface_weight_third w = { zero, zero, zero, zero };
+	UNROLLED
+	for (int b = 0; b < ORDER_U; b++) {
+		const local real *pole = poles + b * DERIVATIVES * DIMENSION;
+		const real value = SPREAD(table[b]);
+		const real slope = SPREAD(table[ORDER_U + b]);
+		const real bend = SPREAD(table[2 * ORDER_U + b]);
+		const real turn = SPREAD(table[3 * ORDER_U + b]);
+		t.uuu = triple_add(turn, triple_at(pole), t.uuu);
+		t.uuv = triple_add(bend, triple_at(pole + DIMENSION), t.uuv);
+		t.uvv = triple_add(slope, triple_at(pole + 2 * DIMENSION), t.uvv);
+		t.vvv = triple_add(value, triple_at(pole + 3 * DIMENSION), t.vvv);
 		if (RATIONAL) {
-			const real at_w = pole[WEIGHT];
-			const real v_w = pole[DIMENSION + WEIGHT];
-			w.at = FUSED(value, at_w, w.at);
-			w.u = FUSED(slope, at_w, w.u);
-			w.uu = FUSED(bend, at_w, w.uu);
-			w.v = FUSED(value, v_w, w.v);
-			w.uv = FUSED(slope, v_w, w.uv);
-			w.vv = FUSED(value, pole[2 * DIMENSION + WEIGHT], w.vv);
+			w.uuu = FUSED(turn, pole[3], w.uuu);
+			w.uuv = FUSED(bend, pole[DIMENSION + 3], w.uuv);
+			w.uvv = FUSED(slope, pole[2 * DIMENSION + 3], w.uvv);
+			w.vvv = FUSED(value, pole[3 * DIMENSION + 3], w.vvv);
 		}
 	}
-	return RATIONAL ? surface_divide(j, w) : j;
+	return RATIONAL ? surface_divide_third(t, weight_of(poles, table), w, j) : t;
 }
+#endif
 
 /* Numbers as they are given back: doubles, or those of the precision. */
 #if OUT_DOUBLE
@@ -269,7 +311,7 @@ typedef struct line {
 static inline surface_jet jet_at(line l, int n)
 {
 	return jet_of(l.row + l.first_u[n] * DERIVATIVES * DIMENSION,
-	              l.table_u + n * SURFACE_TABLE_SIZE(ORDER_U));
+	              l.table_u + n * TABLE_SIZE(ORDER_U));
 }
 
 /* The forms of count samples from number n. */
@@ -303,7 +345,7 @@ static inline void work_run(line l, int n, int count, real *tile, real *missing)
 		if (SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION) {
 			put_triple(tile, i, 0,
 			           point_of(l.row + l.first_u[n + i] * DIMENSION,
-			                    l.table_u + (n + i) * SURFACE_TABLE_SIZE(ORDER_U)));
+			                    l.table_u + (n + i) * TABLE_SIZE(ORDER_U)));
 			continue;
 		}
 		const surface_jet j = jet_at(l, n + i);
@@ -331,11 +373,29 @@ static inline int work_line(line l, int samples, target to)
 	return ANY(missing != SPREAD(LITERAL(0.0))) ? 1 : 0;
 }
 
-/* What a segment of a line adds up. */
-static inline void sum_segment(line l, int begin, int end, local real *out)
+/* The weight of sample n in an integral. */
+static inline scalar weight_at(line l, int n)
 {
-	const real zero = SPREAD(LITERAL(0.0));
-	surface_sums sums = { zero, zero, zero, zero, zero };
+	return l.table_u[(n + 1) * TABLE_SIZE(ORDER_U) - 1];
+}
+
+#if SURFACE_OUTPUT == SURFACE_OUTPUT_VARIATION
+static inline void sum_samples(line l, int begin, int end, surface_sums *sums)
+{
+	ROLLED
+	for (int n = begin; n < end; n++) {
+		const local real *poles = l.row + l.first_u[n] * DERIVATIVES * DIMENSION;
+		global const scalar *table = l.table_u + n * TABLE_SIZE(ORDER_U);
+		const surface_jet j = jet_of(poles, table);
+		const surface_shape s = surface_shape_of(j, l.least_area);
+		const surface_third t = third_of(poles, table, j);
+		surface_sums_add(sums, s, weight_at(l, n));
+		surface_sums_add_variation(sums, s, surface_variation_of(j, t, s), weight_at(l, n));
+	}
+}
+#else
+static inline void sum_samples(line l, int begin, int end, surface_sums *sums)
+{
 	ROLLED
 	for (int n = begin; n < end; n += BATTEN_LANES) {
 		const int count = end - n < BATTEN_LANES ? end - n : BATTEN_LANES;
@@ -343,14 +403,24 @@ static inline void sum_segment(line l, int begin, int end, local real *out)
 		find_forms(l, n, count, forms);
 		ROLLED
 		for (int i = 0; i < count; i++)
-			surface_sums_add(&sums, surface_shape_from(forms[i], triple_zero()),
-			                 l.table_u[(n + i) * SURFACE_TABLE_SIZE(ORDER_U) + 3 * ORDER_U]);
+			surface_sums_add(sums, surface_shape_from(forms[i], triple_zero()),
+			                 weight_at(l, n + i));
 	}
+}
+#endif
+
+/* What a segment of a line adds up. */
+static inline void sum_segment(line l, int begin, int end, local real *out)
+{
+	surface_sums sums = surface_sums_zero();
+	sum_samples(l, begin, end, &sums);
 	out[SURFACE_SUM_BENDING] = sums.bending;
 	out[SURFACE_SUM_MEAN] = sums.mean;
 	out[SURFACE_SUM_GAUSS] = sums.gauss;
 	out[SURFACE_SUM_AREA] = sums.area;
 	out[SURFACE_SUM_SINGULAR] = sums.singular;
+	out[SURFACE_SUM_VARIATION] = sums.variation;
+	out[SURFACE_SUM_LEFT_OUT] = sums.left_out;
 }
 
 /* The sums of all segments, in their order. */
@@ -370,7 +440,7 @@ static inline void gather(const local real *gathered, int segments, global real 
  * `surfaces` lanes of those blocks are surfaces to be given back.
  * light: a unit vector, for isophotes (Letcher 4.5).
  * first_v, first_u: the first pole each line and each sample of a line sees. tables:
- * SURFACE_TABLE_SIZE a line, a sample. nets [block][columns][column_length][DIMENSION], least_areas
+ * TABLE_SIZE a line, a sample. nets [block][columns][column_length][DIMENSION], least_areas
  * [block], all of real. There are segments times segment_length samples: a segment is summed by one
  * work-item. values: [surface][VALUES][lines][samples], sums: [block][lines][SURFACE_SUM_COUNT] of
  * real, missing: [block][lines][work-items], 1 where a sample has no normal; all counted from the
@@ -392,7 +462,7 @@ kernel void surface_grid(int first_block, int first_line, int lines, int surface
 	nets += (((size_t)first_block + block) * (size_t)columns * (size_t)column_length +
 	         (size_t)first_v[first_line + (int)k]) *
 	        DIMENSION;
-	table_v += (first_line + (int)k) * SURFACE_TABLE_SIZE(ORDER_V);
+	table_v += (first_line + (int)k) * TABLE_SIZE(ORDER_V);
 	ROLLED
 	for (int i = (int)get_local_id(0); i < columns; i += (int)get_local_size(0))
 		collapse_column(nets + (size_t)i * (size_t)column_length * DIMENSION, table_v,
@@ -401,7 +471,7 @@ kernel void surface_grid(int first_block, int first_line, int lines, int surface
 
 	const surface_triple light = { SPREAD(light_x), SPREAD(light_y), SPREAD(light_z) };
 	const line l = { row, first_u, table_u, least_areas[(size_t)first_block + block], light };
-	if (SURFACE_OUTPUT == SURFACE_OUTPUT_ENERGY) {
+	if (SURFACE_SUMS(SURFACE_OUTPUT)) {
 		ROLLED
 		for (int s = (int)get_local_id(0); s < segments; s += (int)get_local_size(0))
 			sum_segment(l, s * segment_length, (s + 1) * segment_length,

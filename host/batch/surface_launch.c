@@ -93,7 +93,7 @@ static void block_measure(block *b)
 	b->lane_bytes = b->lanes * batch_engine_number_size(recipe->precision);
 	b->groups = (b->count + b->lanes - 1) / b->lanes;
 	b->net_bytes = surface_pack_net_count(plan) * b->lane_bytes;
-	b->sums = plan->output == SURFACE_OUTPUT_ENERGY;
+	b->sums = SURFACE_SUMS(plan->output);
 	b->doubles = surface_engine_returns_doubles(device_of(b), recipe->precision);
 	b->surface_bytes = surface_plan_values(plan) * plan->u.count *
 	                   (b->doubles ? sizeof(double) : sizeof(float));

@@ -17,12 +17,12 @@ static size_t number_size(const surface_plan *plan)
 
 size_t surface_pack_table_size(const surface_plan *plan, const surface_samples *samples)
 {
-	return samples->count * SURFACE_TABLE_SIZE(samples->order) * number_size(plan);
+	return samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order) * number_size(plan);
 }
 
 void surface_pack_table(const surface_plan *plan, const surface_samples *samples, void *table)
 {
-	for (size_t n = 0; n < samples->count * SURFACE_TABLE_SIZE(samples->order); n++)
+	for (size_t n = 0; n < samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order); n++)
 		put(plan, table, n, samples->table[n]);
 }
 
@@ -110,11 +110,12 @@ static double get(const surface_plan *plan, const void *numbers, size_t at)
 void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_t lane,
                       size_t lanes, const void *numbers)
 {
-	const size_t size = SURFACE_TABLE_SIZE(plan->v.order);
+	const size_t size = SURFACE_TABLE_SIZE(plan->v.rows, plan->v.order);
 	const double weight = plan->v.table[line * size + size - 1];
 	double *sums = plan->values + which * SURFACE_SUM_COUNT;
 	for (size_t v = 0; v < SURFACE_SUM_COUNT; v++) {
 		const double sum = get(plan, numbers, v * lanes + lane);
-		sums[v] = (line == 0 ? 0.0 : sums[v]) + (v == SURFACE_SUM_SINGULAR ? sum : weight * sum);
+		const bool counts = v == SURFACE_SUM_SINGULAR || v == SURFACE_SUM_LEFT_OUT;
+		sums[v] = (line == 0 ? 0.0 : sums[v]) + (counts ? sum : weight * sum);
 	}
 }

@@ -30,7 +30,7 @@ size_t surface_plan_values(const surface_plan *plan)
 
 size_t surface_plan_line_size(const surface_plan *plan)
 {
-	const size_t samples = plan->output == SURFACE_OUTPUT_ENERGY ? 1 : plan->u.count;
+	const size_t samples = SURFACE_SUMS(plan->output) ? 1 : plan->u.count;
 	return samples * surface_plan_values(plan);
 }
 
@@ -41,5 +41,5 @@ size_t surface_plan_dimension(const surface_plan *plan)
 
 size_t surface_plan_derivatives(const surface_plan *plan)
 {
-	return plan->output == SURFACE_OUTPUT_POSITION ? 1 : 3;
+	return SURFACE_DERIVATIVES(plan->output);
 }

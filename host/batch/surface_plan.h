@@ -10,9 +10,9 @@ enum { SURFACE_ORDER_LEAST = 2, SURFACE_ORDER_MOST = 8 };
 
 /* One direction: its basis at every sample. */
 typedef struct surface_samples {
-	size_t order, poles, count;
-	int32_t *first; /* the first of `order` poles the sample sees */
-	double *table;  /* SURFACE_TABLE_SIZE(order) a sample */
+	size_t order, poles, count, rows; /* rows: SURFACE_TABLE_ROWS of the output */
+	int32_t *first;                   /* the first of `order` poles the sample sees */
+	double *table;                    /* SURFACE_TABLE_SIZE(rows, order) a sample */
 } surface_samples;
 
 /* One surface of the batch; arrays borrowed. */

@@ -12,7 +12,7 @@ batten_status surface_reference_create(const surface_plan *plan, surface_referen
 	r.table_u = batten_allocate(context, 1, surface_pack_table_size(plan, &plan->u));
 	r.table_v = batten_allocate(context, 1, surface_pack_table_size(plan, &plan->v));
 	r.net = batten_allocate(context, surface_pack_net_count(plan), number);
-	r.scratch = batten_allocate(context, plan->u.poles, 12 * number);
+	r.scratch = batten_allocate(context, plan->u.poles, 16 * number);
 	r.out = batten_allocate(context, plan->v.count, surface_plan_line_size(plan) * number);
 	if (!r.table_u || !r.table_v || !r.net || !r.scratch || !r.out) {
 		surface_reference_release(&r);
@@ -68,7 +68,7 @@ void surface_reference_run(surface_reference *reference, size_t which)
 	                          batch_engine_number_size(plan->precision);
 	for (size_t k = 0; k < plan->v.count; k++) {
 		const char *line = (const char *)reference->out + k * line_bytes;
-		if (plan->output == SURFACE_OUTPUT_ENERGY) {
+		if (SURFACE_SUMS(plan->output)) {
 			surface_add_sums(plan, which, k, 0, 1, line);
 		} else {
 			surface_take_line(plan, which, k, line, plan->precision == BATTEN_F64, 1,

@@ -10,6 +10,7 @@ enum {
 	SAMPLES_V = 5,
 	SAMPLES = SAMPLES_U * SAMPLES_V,
 	SEGMENT = 2,
+	TABLE_ROWS_MOST = SURFACE_TABLE_ROWS(SURFACE_OUTPUT_VARIATION),
 	POLES_MOST = SURFACE_ORDER_MOST + 3,
 	LANES_MOST = 16,
 	SURFACES_MOST = 2 * LANES_MOST + 1
@@ -18,7 +19,7 @@ enum {
 /* Room for one direction. */
 typedef struct test_direction {
 	int32_t first[SAMPLES_U];
-	double table[SAMPLES_U * SURFACE_TABLE_SIZE(SURFACE_ORDER_MOST)];
+	double table[SAMPLES_U * SURFACE_TABLE_SIZE(TABLE_ROWS_MOST, SURFACE_ORDER_MOST)];
 } test_direction;
 
 /* Two sides of the comparison and what both are given. */
@@ -54,31 +55,38 @@ static void differentiate(size_t order, const double *lower, double *values)
 	}
 }
 
+/* Derivative number `derivative` of the polynomials at t, 0 beyond the degree. */
+static void bernstein_derivative(size_t order, size_t derivative, double t, double *values)
+{
+	double lower[SURFACE_ORDER_MOST] = { 0.0 };
+	if (derivative >= order) {
+		memset(values, 0, order * sizeof *values);
+	} else if (derivative == 0) {
+		bernstein(order, t, values);
+	} else {
+		bernstein_derivative(order - 1, derivative - 1, t, lower);
+		differentiate(order, lower, values);
+	}
+}
+
 /* Patches of a net, one after the other, each sampled from its one end to its other. No library
  * function takes part, so every machine gets the same numbers. */
-static surface_samples make_direction(size_t order, size_t poles, size_t count, test_direction *d)
+static surface_samples make_direction(size_t order, size_t rows, size_t poles, size_t count,
+                                      test_direction *d)
 {
 	for (size_t n = 0; n < count; n++) {
-		double lower[SURFACE_ORDER_MOST] = { 0.0 };
-		double lowest[SURFACE_ORDER_MOST] = { 0.0 };
-		double *row = d->table + n * SURFACE_TABLE_SIZE(order);
-		const double t = 0.25 * (double)(n % 5);
+		double *row = d->table + n * SURFACE_TABLE_SIZE(rows, order);
 		d->first[n] = (int32_t)(n / 2 % (poles - order + 1));
-		bernstein(order, t, row);
-		bernstein(order - 1, t, lower);
-		differentiate(order, lower, row + order);
-		if (order > 2) {
-			bernstein(order - 2, t, lowest);
-			differentiate(order - 1, lowest, lower);
-			differentiate(order, lower, row + 2 * order);
-		} else {
-			row[2 * order] = row[2 * order + 1] = 0.0;
-		}
-		row[3 * order] = 0.125 + 0.0625 * (double)(n % 3);
+		for (size_t k = 0; k < rows; k++)
+			bernstein_derivative(order, k, 0.25 * (double)(n % 5), row + k * order);
+		row[rows * order] = 0.125 + 0.0625 * (double)(n % 3);
 	}
-	return (surface_samples){
-		.order = order, .poles = poles, .count = count, .first = d->first, .table = d->table
-	};
+	return (surface_samples){ .order = order,
+		                      .rows = rows,
+		                      .poles = poles,
+		                      .count = count,
+		                      .first = d->first,
+		                      .table = d->table };
 }
 
 /* A hull-like net with noise; the second surface is shrunk to a point on one side, so that there are
@@ -113,8 +121,9 @@ static surface_plan make_plan(test_batch *t, const batch_engine *engine, const s
 		                  .precision = engine->recipe.precision,
 		                  .lanes = engine->recipe.lanes,
 		                  .work_group = engine->recipe.work_group };
-	plan.u = make_direction(model->u.order, model->u.order + 3, SAMPLES_U, &t->u);
-	plan.v = make_direction(model->v.order, model->v.order + 2, SAMPLES_V, &t->v);
+	const size_t rows = SURFACE_TABLE_ROWS(model->output);
+	plan.u = make_direction(model->u.order, rows, model->u.order + 3, SAMPLES_U, &t->u);
+	plan.v = make_direction(model->v.order, rows, model->v.order + 2, SAMPLES_V, &t->v);
 	/* Two full groups of lanes and one more, so that lanes left over are met too. */
 	plan.count = 2 * (size_t)engine->recipe.lanes + 1;
 	uint32_t state = 20011u;
@@ -126,7 +135,7 @@ static surface_plan make_plan(test_batch *t, const batch_engine *engine, const s
 
 static void compare(const surface_plan *plan, const test_batch *t, batten_selftest *test)
 {
-	const bool sums = plan->output == SURFACE_OUTPUT_ENERGY;
+	const bool sums = SURFACE_SUMS(plan->output);
 	const size_t each = surface_plan_values(plan) * (sums ? 1 : SAMPLES);
 	double worst = 0.0;
 	for (size_t n = 0; n < plan->count * each; n++) {

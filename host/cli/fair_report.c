@@ -162,6 +162,8 @@ static json_t *energies_json(const batten_surface_energies *energies)
 	set(object, "energy_gauss", number(energies->gauss));
 	set(object, "area_m2", number(energies->area_m2));
 	set(object, "singular_points", count(energies->singular));
+	set(object, "energy_mvc_per_m2", number(energies->variation_per_m2));
+	set(object, "mvc_points_left_out", count(energies->variation_left_out));
 	return object;
 }
 

@@ -160,6 +160,7 @@ static batten_status measure(struct work *work)
 	batten_surface_batch_options_default(&options);
 	options.device = work->options->search.device;
 	options.precision = work->options->search.precision;
+	options.variation = true;
 	const batten_status status = batten_surface_energy_batch(fairing->context, 2, surfaces,
 	                                                         &options, energies, NULL);
 	if (status == BATTEN_OK) {

@@ -87,7 +87,8 @@ static double largest_of(const double *numbers, size_t count)
 static double largest_of_table(const surface_samples *samples)
 {
 	return (double)samples->order *
-	       largest_of(samples->table, samples->count * SURFACE_TABLE_SIZE(samples->order));
+	       largest_of(samples->table,
+	                  samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order));
 }
 
 /* Squares of derivatives must stay finite in the precision. */
@@ -247,23 +248,30 @@ batten_status batten_surface_energy_batch(batten_context *context, size_t count,
 	const size_t along_u = chosen.gauss_points ? chosen.gauss_points : t.order_u + 1;
 	const size_t along_v = chosen.gauss_points ? chosen.gauss_points : t.order_v + 1;
 	surface_plan plan = plan_of(context, count, &t, &chosen);
-	plan.output = SURFACE_OUTPUT_ENERGY;
+	plan.output = chosen.variation ? SURFACE_OUTPUT_VARIATION : SURFACE_OUTPUT_ENERGY;
 	plan.segment_length = along_u;
+	const size_t rows = SURFACE_TABLE_ROWS(plan.output);
 	plan.values = batten_allocate(context, count, SURFACE_SUM_COUNT * sizeof *plan.values);
 	if (!plan.values)
 		return BATTEN_MEMORY;
-	status = surface_samples_gauss(context, t.order_u, t.count_u, t.knots_u, along_u, &plan.u);
+	status = surface_samples_gauss(context, t.order_u, rows, t.count_u, t.knots_u, along_u,
+	                               &plan.u);
 	if (status == BATTEN_OK)
-		status = surface_samples_gauss(context, t.order_v, t.count_v, t.knots_v, along_v, &plan.v);
+		status = surface_samples_gauss(context, t.order_v, rows, t.count_v, t.knots_v, along_v,
+		                               &plan.v);
 	if (status == BATTEN_OK)
 		status = run_plan(&plan, surfaces, run);
 	for (size_t s = 0; s < count && status == BATTEN_OK; s++) {
 		const double *sums = plan.values + s * SURFACE_SUM_COUNT;
-		energies[s] = (batten_surface_energies){ .bending = sums[SURFACE_SUM_BENDING],
-			                                     .mean = sums[SURFACE_SUM_MEAN],
-			                                     .gauss = sums[SURFACE_SUM_GAUSS],
-			                                     .area_m2 = sums[SURFACE_SUM_AREA],
-			                                     .singular = (size_t)sums[SURFACE_SUM_SINGULAR] };
+		energies[s] = (batten_surface_energies){
+			.bending = sums[SURFACE_SUM_BENDING],
+			.mean = sums[SURFACE_SUM_MEAN],
+			.gauss = sums[SURFACE_SUM_GAUSS],
+			.area_m2 = sums[SURFACE_SUM_AREA],
+			.singular = (size_t)sums[SURFACE_SUM_SINGULAR],
+			.variation_per_m2 = sums[SURFACE_SUM_VARIATION],
+			.variation_left_out = (size_t)sums[SURFACE_SUM_LEFT_OUT]
+		};
 	}
 	surface_samples_release(context, &plan.u);
 	surface_samples_release(context, &plan.v);

@@ -22,9 +22,11 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
                                  size_t poles, const double *knots, size_t count,
                                  const double *parameters, surface_samples *out);
 
-/* The same at points Gauss points of every span that is not empty, with their weights. */
-batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
-                                    const double *knots, size_t points, surface_samples *out);
+/* The same at points Gauss points of every span that is not empty, with their weights, in `rows` rows
+ * of derivatives (SURFACE_TABLE_ROWS). */
+batten_status surface_samples_gauss(batten_context *context, size_t order, size_t rows,
+                                    size_t poles, const double *knots, size_t points,
+                                    surface_samples *out);
 void surface_samples_release(batten_context *context, surface_samples *samples);
 
 /* What each surface has of its own; batten_release() the items. Errors: USAGE (numbers too large for

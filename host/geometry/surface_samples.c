@@ -4,12 +4,13 @@
 
 #include <string.h>
 
-static batten_status allocate(batten_context *context, size_t order, size_t poles, size_t count,
-                              surface_samples *out)
+static batten_status allocate(batten_context *context, size_t order, size_t rows, size_t poles,
+                              size_t count, surface_samples *out)
 {
-	surface_samples samples = { .order = order, .poles = poles, .count = count };
+	surface_samples samples = { .order = order, .rows = rows, .poles = poles, .count = count };
 	samples.first = batten_allocate(context, count, sizeof *samples.first);
-	samples.table = batten_allocate(context, count, SURFACE_TABLE_SIZE(order) * sizeof(double));
+	samples.table = batten_allocate(context, count,
+	                                SURFACE_TABLE_SIZE(rows, order) * sizeof(double));
 	if (!samples.first || !samples.table) {
 		surface_samples_release(context, &samples);
 		return BATTEN_MEMORY;
@@ -31,11 +32,11 @@ static void fill(const double *knots, size_t span, double t, double weight, size
 {
 	const size_t order = samples->order;
 	double rows[BSPLINE_DERIVATIVES_MOST + 1][BSPLINE_ORDER_MOST];
-	double *table = samples->table + n * SURFACE_TABLE_SIZE(order);
-	bspline_basis_derivatives(order, knots, span, t, 2, rows);
-	for (size_t d = 0; d < 3; d++)
+	double *table = samples->table + n * SURFACE_TABLE_SIZE(samples->rows, order);
+	bspline_basis_derivatives(order, knots, span, t, samples->rows - 1, rows);
+	for (size_t d = 0; d < samples->rows; d++)
 		memcpy(table + d * order, rows[d], order * sizeof *table);
-	table[3 * order] = weight;
+	table[samples->rows * order] = weight;
 	samples->first[n] = (int32_t)(span + 1 - order);
 }
 
@@ -43,7 +44,7 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
                                  size_t poles, const double *knots, size_t count,
                                  const double *parameters, surface_samples *out)
 {
-	enum { SAMPLES_MOST = 65536 };
+	enum { SAMPLES_MOST = 65536, TABLE_ROWS = 3 };
 	const double first = knots[order - 1];
 	const double last = knots[poles];
 	if (count < 1 || count > SAMPLES_MOST)
@@ -53,14 +54,15 @@ batten_status surface_samples_at(batten_context *context, const char *what, size
 		if (!(parameters[n] >= first && parameters[n] <= last))
 			return batten_fail(context, BATTEN_USAGE, "sample %zu: %s is %g, %g to %g is expected",
 			                   n, what, parameters[n], first, last);
-	const batten_status status = allocate(context, order, poles, count, out);
+	const batten_status status = allocate(context, order, TABLE_ROWS, poles, count, out);
 	for (size_t n = 0; n < count && status == BATTEN_OK; n++)
 		fill(knots, bspline_span(order, poles, knots, parameters[n]), parameters[n], 1.0, n, out);
 	return status;
 }
 
-batten_status surface_samples_gauss(batten_context *context, size_t order, size_t poles,
-                                    const double *knots, size_t points, surface_samples *out)
+batten_status surface_samples_gauss(batten_context *context, size_t order, size_t rows,
+                                    size_t poles, const double *knots, size_t points,
+                                    surface_samples *out)
 {
 	double nodes[GAUSS_POINTS_MOST];
 	double weights[GAUSS_POINTS_MOST];
@@ -71,7 +73,7 @@ batten_status surface_samples_gauss(batten_context *context, size_t order, size_
 	size_t spans = 0;
 	for (size_t span = order - 1; span < poles; span++)
 		spans += knots[span] < knots[span + 1];
-	const batten_status status = allocate(context, order, poles, spans * points, out);
+	const batten_status status = allocate(context, order, rows, poles, spans * points, out);
 	size_t n = 0;
 	for (size_t span = order - 1; span < poles && status == BATTEN_OK; span++) {
 		if (!(knots[span] < knots[span + 1]))

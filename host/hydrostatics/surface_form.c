@@ -1,5 +1,4 @@
 /* The public hydrostatics of B-spline surfaces. */
-#include "geometry/surface_variation.h"
 #include "hydrostatics/patch.h"
 #include "hydrostatics/quantities.h"
 
@@ -111,16 +110,14 @@ batten_status batten_surface_measure(batten_context *context, const batten_surfa
 {
 	batten_hydrostatics found;
 	batten_surface_energies energies;
-	surface_variation_sum variation;
 	batten_surface_batch_options how;
 	batten_surface_batch_options_default(&how);
 	how.device = BATTEN_DEVICE_REFERENCE;
+	how.variation = true;
 	batten_status status = batten_surface_hydrostatics(context, surface, options, 1, &draft_m,
 	                                                   &found);
 	if (status == BATTEN_OK)
 		status = batten_surface_energy_batch(context, 1, &surface, &how, &energies, NULL);
-	if (status == BATTEN_OK)
-		status = surface_variation_integrate(context, surface, how.gauss_points, &variation);
 	if (status != BATTEN_OK)
 		return status;
 	batten_measures made = {
@@ -132,7 +129,7 @@ batten_status batten_surface_measure(batten_context *context, const batten_surfa
 	made.energy_bending = energies.bending;
 	made.energy_mean = energies.mean;
 	made.energy_gauss = energies.gauss;
-	made.energy_mvc_per_m2 = variation.per_m2;
+	made.energy_mvc_per_m2 = energies.variation_per_m2;
 	*out = made;
 	return BATTEN_OK;
 }

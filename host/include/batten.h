@@ -838,6 +838,8 @@ typedef struct batten_surface_batch_options {
 	double light[3];
 	unsigned gauss_points; /* of batten_surface_energy_batch(), a knot span and direction,
 	                                 1..16; 0 takes the order of the direction + 1 */
+	bool variation;        /* of batten_surface_energy_batch(): the variation of curvature too, at
+	                                 two to three times the work; false */
 	unsigned lanes;        /* surfaces a work-item works side by side: 1, 2, 4, 8, 16;
 	                                 0 chooses */
 	unsigned work_group;   /* work-items that share a line of samples; 0 chooses */
@@ -857,14 +859,18 @@ BATTEN_API batten_status batten_surface_grid_batch(batten_context *context, size
                                                    double *values, uint8_t *singular,
                                                    batten_run *run);
 
-/* Integrals over a whole surface (thesis 4.4, Letcher 4.5); points where the normal does not exist
- * count nothing. */
+/* Integrals over a whole surface (thesis 4.4, Letcher 4.5; Moreton and Sequin 1992); points where the
+ * normal does not exist count nothing. Principal directions, and so the variation of curvature along
+ * them, exist where |k1 - k2| is more than 1e-6 (f32: 1e-3) of sqrt(k1^2 + k2^2). */
 typedef struct batten_surface_energies {
 	double bending;  /* of (k1^2 + k2^2) dA */
 	double mean;     /* of H^2 dA */
 	double gauss;    /* of |K| dA */
 	double area_m2;  /* of dA */
 	size_t singular; /* points left out */
+	/* With options->variation, else 0. */
+	double variation_per_m2;   /* of ((dk1/de1)^2 + (dk2/de2)^2) dA */
+	size_t variation_left_out; /* points that add nothing to it, singular ones among them */
 } batten_surface_energies;
 
 /* Gauss quadrature over every knot span of count surfaces of one topology; energies is the

@@ -15,7 +15,7 @@ typedef struct reference_surface_grid {
 	double light[3]; /* rounded to the precision */
 } reference_surface_grid;
 
-/* scratch: 12 numbers a column of the net. */
+/* scratch: 16 numbers a column of the net. */
 void reference_surface_grid_f64(const reference_surface_grid *shared, const double *table_v,
                                 const double *table_u, const double *net, double least_area,
                                 double *out, double *scratch);

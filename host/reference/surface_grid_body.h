@@ -10,14 +10,19 @@
 #define INLINED static inline __attribute__((always_inline))
 #undef SHARED_FUNCTION
 #define SHARED_FUNCTION INLINED
-#include "shared/surface_point.h"
+#include "shared/surface_variation.h"
 
 INLINED int derivatives_of(const reference_surface_grid *shared)
 {
-	return shared->output == SURFACE_OUTPUT_POSITION ? 1 : 3;
+	return SURFACE_DERIVATIVES(shared->output);
 }
 
-/* One column of the net taken together along v: point, first and second derivative. */
+INLINED int table_size(const reference_surface_grid *shared, int order)
+{
+	return SURFACE_TABLE_SIZE(SURFACE_TABLE_ROWS(shared->output), order);
+}
+
+/* One column of the net taken together along v: the point and its derivatives. */
 INLINED void collapse_column(const reference_surface_grid *shared, const scalar *poles,
                              const scalar *table, scalar *pole)
 {
@@ -52,15 +57,34 @@ INLINED surface_triple point_of(const reference_surface_grid *shared, const scal
 	return shared->rational ? surface_divide_at(at, weight) : at;
 }
 
+/* The weight of a rational surface and its derivatives. */
+INLINED surface_weight weight_of(const reference_surface_grid *shared, const scalar *poles,
+                                 const scalar *table)
+{
+	surface_weight w = { 0, 0, 0, 0, 0, 0 };
+	for (int b = 0; b < shared->order_u; b++) {
+		const scalar *pole = poles + b * derivatives_of(shared) * 4;
+		const scalar value = table[b];
+		const scalar slope = table[shared->order_u + b];
+		const scalar bend = table[2 * shared->order_u + b];
+		w.at = FUSED(value, pole[3], w.at);
+		w.u = FUSED(slope, pole[3], w.u);
+		w.uu = FUSED(bend, pole[3], w.uu);
+		w.v = FUSED(value, pole[7], w.v);
+		w.uv = FUSED(slope, pole[7], w.uv);
+		w.vv = FUSED(value, pole[11], w.vv);
+	}
+	return w;
+}
+
 INLINED surface_jet jet_of(const reference_surface_grid *shared, const scalar *poles,
                            const scalar *table)
 {
 	const int dimension = 3 + shared->rational;
 	const surface_triple none = triple_zero();
 	surface_jet j = { none, none, none, none, none, none };
-	surface_weight w = { 0, 0, 0, 0, 0, 0 };
 	for (int b = 0; b < shared->order_u; b++) {
-		const scalar *pole = poles + b * 3 * dimension;
+		const scalar *pole = poles + b * derivatives_of(shared) * dimension;
 		const scalar value = table[b];
 		const scalar slope = table[shared->order_u + b];
 		const scalar bend = table[2 * shared->order_u + b];
@@ -72,16 +96,36 @@ INLINED surface_jet jet_of(const reference_surface_grid *shared, const scalar *p
 		j.v = triple_add(value, v, j.v);
 		j.uv = triple_add(slope, v, j.uv);
 		j.vv = triple_add(value, triple_at(pole + 2 * dimension), j.vv);
+	}
+	return shared->rational ? surface_divide(j, weight_of(shared, poles, table)) : j;
+}
+
+/* What the jet leaves out; only with SURFACE_OUTPUT_VARIATION. */
+INLINED surface_third third_of(const reference_surface_grid *shared, const scalar *poles,
+                               const scalar *table, surface_jet j)
+{
+	const int dimension = 3 + shared->rational;
+	const surface_triple none = triple_zero();
+	surface_third t = { none, none, none, none };
+	surface_weight_third w = { 0, 0, 0, 0 };
+	for (int b = 0; b < shared->order_u; b++) {
+		const scalar *pole = poles + b * 4 * dimension;
+		const scalar value = table[b];
+		const scalar slope = table[shared->order_u + b];
+		const scalar bend = table[2 * shared->order_u + b];
+		const scalar turn = table[3 * shared->order_u + b];
+		t.uuu = triple_add(turn, triple_at(pole), t.uuu);
+		t.uuv = triple_add(bend, triple_at(pole + dimension), t.uuv);
+		t.uvv = triple_add(slope, triple_at(pole + 2 * dimension), t.uvv);
+		t.vvv = triple_add(value, triple_at(pole + 3 * dimension), t.vvv);
 		if (shared->rational) {
-			w.at = FUSED(value, pole[3], w.at);
-			w.u = FUSED(slope, pole[3], w.u);
-			w.uu = FUSED(bend, pole[3], w.uu);
-			w.v = FUSED(value, pole[dimension + 3], w.v);
-			w.uv = FUSED(slope, pole[dimension + 3], w.uv);
-			w.vv = FUSED(value, pole[2 * dimension + 3], w.vv);
+			w.uuu = FUSED(turn, pole[3], w.uuu);
+			w.uuv = FUSED(bend, pole[dimension + 3], w.uuv);
+			w.uvv = FUSED(slope, pole[2 * dimension + 3], w.uvv);
+			w.vvv = FUSED(value, pole[3 * dimension + 3], w.vvv);
 		}
 	}
-	return shared->rational ? surface_divide(j, w) : j;
+	return shared->rational ? surface_divide_third(t, weight_of(shared, poles, table), w, j) : t;
 }
 
 INLINED void put_triple(scalar *out, surface_triple t)
@@ -140,7 +184,7 @@ INLINED void work_line(const reference_surface_grid *shared, const scalar *row,
 		                           (scalar)shared->light[2] };
 	for (int n = 0; n < shared->segments * shared->segment_length; n++) {
 		const scalar *mine = row + shared->first_u[n] * pole_size;
-		const scalar *table = table_u + n * SURFACE_TABLE_SIZE(shared->order_u);
+		const scalar *table = table_u + n * table_size(shared, shared->order_u);
 		scalar *to = out + (size_t)n * (size_t)values;
 		if (shared->output == SURFACE_OUTPUT_POSITION) {
 			put_triple(to, point_of(shared, mine, table));
@@ -161,21 +205,31 @@ INLINED void work_line(const reference_surface_grid *shared, const scalar *row,
 INLINED void sum_line(const reference_surface_grid *shared, const scalar *row,
                       const scalar *table_u, scalar least_area, scalar *out)
 {
-	const int pole_size = 3 * (3 + shared->rational);
+	const int pole_size = derivatives_of(shared) * (3 + shared->rational);
+	const int rows = SURFACE_TABLE_ROWS(shared->output);
 	for (int u = 0; u < SURFACE_SUM_COUNT; u++)
 		out[u] = LITERAL(0.0);
 	for (int n = 0; n < shared->segments * shared->segment_length;) {
-		surface_sums sums = { 0, 0, 0, 0, 0 };
+		surface_sums sums = surface_sums_zero();
 		for (int end = n + shared->segment_length; n < end; n++) {
-			const scalar *table = table_u + n * SURFACE_TABLE_SIZE(shared->order_u);
-			const surface_jet j = jet_of(shared, row + shared->first_u[n] * pole_size, table);
-			surface_sums_add(&sums, surface_shape_of(j, least_area), table[3 * shared->order_u]);
+			const scalar *table = table_u + n * table_size(shared, shared->order_u);
+			const scalar weight = table[rows * shared->order_u];
+			const scalar *poles = row + shared->first_u[n] * pole_size;
+			const surface_jet j = jet_of(shared, poles, table);
+			const surface_shape s = surface_shape_of(j, least_area);
+			surface_sums_add(&sums, s, weight);
+			if (shared->output == SURFACE_OUTPUT_VARIATION)
+				surface_sums_add_variation(
+					&sums, s, surface_variation_of(j, third_of(shared, poles, table, j), s),
+					weight);
 		}
 		out[SURFACE_SUM_BENDING] += sums.bending;
 		out[SURFACE_SUM_MEAN] += sums.mean;
 		out[SURFACE_SUM_GAUSS] += sums.gauss;
 		out[SURFACE_SUM_AREA] += sums.area;
 		out[SURFACE_SUM_SINGULAR] += sums.singular;
+		out[SURFACE_SUM_VARIATION] += sums.variation;
+		out[SURFACE_SUM_LEFT_OUT] += sums.left_out;
 	}
 }
 
@@ -186,11 +240,11 @@ INLINED void work_surface(const reference_surface_grid *shared, const scalar *ta
 	const size_t dimension = shared->rational ? 4 : 3;
 	const size_t pole_size = dimension * (size_t)derivatives_of(shared);
 	const size_t samples = (size_t)shared->segments * (size_t)shared->segment_length;
-	const bool sums_up = shared->output == SURFACE_OUTPUT_ENERGY;
+	const bool sums_up = SURFACE_SUMS(shared->output);
 	const size_t line_size = sums_up ? SURFACE_SUM_COUNT
 	                                 : samples * (size_t)values_of(shared->output);
 	for (int k = 0; k < shared->lines; k++) {
-		const scalar *table = table_v + k * SURFACE_TABLE_SIZE(shared->order_v);
+		const scalar *table = table_v + k * table_size(shared, shared->order_v);
 		const scalar *column = net + (size_t)shared->first_v[k] * dimension;
 		for (size_t i = 0; i < (size_t)shared->columns; i++)
 			collapse_column(shared, column + i * (size_t)shared->column_length * dimension, table,

@@ -8,6 +8,15 @@
 #define SURFACE_OUTPUT_CURVATURE 1
 #define SURFACE_OUTPUT_EVERYTHING 2
 #define SURFACE_OUTPUT_ENERGY 3
+#define SURFACE_OUTPUT_VARIATION 4 /* the energies, and the variation of curvature */
+
+/* Whether an output is sums of lines. */
+#define SURFACE_SUMS(output)                                                                       \
+	((output) == SURFACE_OUTPUT_ENERGY || (output) == SURFACE_OUTPUT_VARIATION)
+
+/* Derivatives an output takes in one direction, the point among them. */
+#define SURFACE_DERIVATIVES(output)                                                                \
+	((output) == SURFACE_OUTPUT_POSITION ? 1 : (output) == SURFACE_OUTPUT_VARIATION ? 4 : 3)
 
 enum { SURFACE_POSITION_COUNT = 3, SURFACE_CURVATURE_COUNT = 2 };
 
@@ -46,7 +55,9 @@ enum {
 	SURFACE_SUM_MEAN,
 	SURFACE_SUM_GAUSS,
 	SURFACE_SUM_AREA,
-	SURFACE_SUM_SINGULAR, /* a number of points */
+	SURFACE_SUM_SINGULAR,  /* a number of points */
+	SURFACE_SUM_VARIATION, /* these two are 0 without SURFACE_OUTPUT_VARIATION */
+	SURFACE_SUM_LEFT_OUT,  /* points that add nothing to the variation */
 	SURFACE_SUM_COUNT
 };
 
@@ -60,7 +71,9 @@ enum {
 #define SURFACE_ANGLE_F32 1e-5
 
 /* One sample of a direction in its table: `order` values of the basis, of its first and of its second
- * derivative, and the weight in an integral. */
-#define SURFACE_TABLE_SIZE(order) (3 * (order) + 1)
+ * derivative, and of its third where the variation of curvature is found; then the weight in an
+ * integral. */
+#define SURFACE_TABLE_ROWS(output) ((output) == SURFACE_OUTPUT_VARIATION ? 4 : 3)
+#define SURFACE_TABLE_SIZE(rows, order) ((rows) * (order) + 1)
 
 #endif

@@ -268,8 +268,15 @@ SHARED_FUNCTION real surface_mark(surface_shape s)
 
 /* What a span of an integral adds up; all 0 before the first point. */
 typedef struct surface_sums {
-	real bending, mean, gauss, area, singular;
+	real bending, mean, gauss, area, singular, variation, left_out;
 } surface_sums;
+
+SHARED_FUNCTION surface_sums surface_sums_zero(void)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const surface_sums sums = { zero, zero, zero, zero, zero, zero, zero };
+	return sums;
+}
 
 SHARED_FUNCTION void surface_sums_add(surface_sums *sums, surface_shape s, scalar weight)
 {

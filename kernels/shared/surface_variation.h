@@ -180,4 +180,12 @@ SHARED_FUNCTION surface_variation surface_variation_of(surface_jet j, surface_th
 	return v;
 }
 
+/* Beside surface_sums_add(). */
+SHARED_FUNCTION void surface_sums_add_variation(surface_sums *sums, surface_shape s,
+                                                surface_variation v, scalar weight)
+{
+	sums->variation = FUSED(v.density, SPREAD(weight) * s.area, sums->variation);
+	sums->left_out += CHOOSE(v.known, SPREAD(LITERAL(0.0)), SPREAD(LITERAL(1.0)));
+}
+
 #endif

@@ -158,6 +158,7 @@ static void compare_energy(const surface_case *c, batten_surface_batch_options o
 		BATTEN_OK);
 	assert_memory_equal(found, known, sizeof found);
 	assert_true(found[0].area_m2 > 0.0);
+	assert_true((found[0].variation_per_m2 > 0.0) == options.variation);
 }
 
 void surface_case_compare(const surface_case *c, const batten_surface_batch_options *options)
@@ -170,5 +171,9 @@ void surface_case_compare(const surface_case *c, const batten_surface_batch_opti
 		chosen.output = outputs[o];
 		compare_grid(c, chosen);
 	}
-	compare_energy(c, *options);
+	batten_surface_batch_options chosen = *options;
+	for (int variation = 0; variation < 2; variation++) {
+		chosen.variation = variation;
+		compare_energy(c, chosen);
+	}
 }

@@ -1,6 +1,5 @@
 /* Hydrostatics of B-spline surfaces against closed forms (Letcher 9-11): to rounding for polynomial
  * patches, to the accuracy of Gauss points for rational ones and where the waterline cuts spans. */
-#include "geometry/surface_variation.h"
 #include "unit/hydrostatics_fixture.h"
 
 /* ------------------------------------------------------------------------------------------------
@@ -389,13 +388,14 @@ static void drafts_sections_and_measures(void **state)
 	assert_true(m.volume_m3 == h.volume_m3 && m.tpc_t_per_cm == h.tpc_t_per_cm && m.cb == h.cb);
 	assert_true(isnan(m.fn_per_m2) && isnan(m.noise_m) && isnan(m.inflections));
 	const batten_surface *one = surface;
-	assert_int_equal(batten_surface_energy_batch(context, 1, &one, NULL, &energies, NULL),
+	batten_surface_batch_options how;
+	batten_surface_batch_options_default(&how);
+	how.variation = true;
+	assert_int_equal(batten_surface_energy_batch(context, 1, &one, &how, &energies, NULL),
 	                 BATTEN_OK);
 	assert_relative(m.energy_bending, energies.bending, 1e-12);
-	surface_variation_sum variation;
-	assert_int_equal(surface_variation_integrate(context, surface, 0, &variation), BATTEN_OK);
-	assert_true(variation.per_m2 > 0);
-	assert_relative(m.energy_mvc_per_m2, variation.per_m2, 1e-12);
+	assert_true(energies.variation_per_m2 > 0);
+	assert_relative(m.energy_mvc_per_m2, energies.variation_per_m2, 1e-12);
 	assert_int_equal(batten_surface_measure(context, surface, NULL, 7, &m), BATTEN_USAGE);
 	batten_surface_destroy(surface);
 	batten_context_destroy(context);

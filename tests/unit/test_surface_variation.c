@@ -2,8 +2,6 @@
  * differences of curvatures, in both precisions, and integrals of it. */
 #include "surface_fixture.h"
 
-#include "geometry/surface_variation.h"
-
 #define BATTEN_DIALECT_C
 #define BATTEN_DOUBLE 1
 #include "shared/surface_variation.h"
@@ -342,6 +340,17 @@ static const double graph_poles[27] = {
 };
 /* clang-format on */
 
+static batten_status integrate(batten_context *context, const batten_surface *surface,
+                               unsigned points, batten_surface_energies *found)
+{
+	batten_surface_batch_options options;
+	batten_surface_batch_options_default(&options);
+	options.device = BATTEN_DEVICE_REFERENCE;
+	options.gauss_points = points;
+	options.variation = true;
+	return batten_surface_energy_batch(context, 1, &surface, &options, found, NULL);
+}
+
 static void integrals_against_the_oracle(void **state)
 {
 	(void)state;
@@ -350,29 +359,29 @@ static void integrals_against_the_oracle(void **state)
 	batten_surface *surface = open_surface(context, &net);
 	oracle_surface exact = as_oracle(&net);
 	long double right;
-	surface_variation_sum found, coarse, again;
+	batten_surface_energies found, coarse, again;
 	assert_true(oracle_surface_integral(&exact, 16, density_of, &exact, &right, NULL));
-	assert_int_equal(surface_variation_integrate(context, surface, 16, &found), BATTEN_OK);
-	assert_int_equal(found.left_out, 0);
-	near(found.per_m2, right, 1e-8L * right);
+	assert_int_equal(integrate(context, surface, 16, &found), BATTEN_OK);
+	assert_int_equal(found.variation_left_out, 0);
+	near(found.variation_per_m2, right, 1e-8L * right);
 	/* the same points whatever says so; a finer description of the surface changes nothing */
-	assert_int_equal(surface_variation_integrate(context, surface, 0, &coarse), BATTEN_OK);
-	assert_int_equal(surface_variation_integrate(context, surface, 4, &again), BATTEN_OK);
-	assert_true(coarse.per_m2 == again.per_m2);
+	assert_int_equal(integrate(context, surface, 0, &coarse), BATTEN_OK);
+	assert_int_equal(integrate(context, surface, 4, &again), BATTEN_OK);
+	assert_true(coarse.variation_per_m2 == again.variation_per_m2);
 	assert_int_equal(batten_surface_insert_knot(surface, BATTEN_DIRECTION_U, 1, 1), BATTEN_OK);
 	assert_int_equal(batten_surface_elevate(surface, BATTEN_DIRECTION_V, 2), BATTEN_OK);
-	assert_int_equal(surface_variation_integrate(context, surface, 16, &again), BATTEN_OK);
-	near(again.per_m2, right, 1e-8L * right);
+	assert_int_equal(integrate(context, surface, 16, &again), BATTEN_OK);
+	near(again.variation_per_m2, right, 1e-8L * right);
 	/* 1 / m^2: half as large at twice the size is a fourth */
 	static const double twice[9] = { 0, 0, 2, 2, 0, 0, 0, 2, 0 }, nowhere[3] = { 5, 1, 2 };
 	assert_int_equal(batten_surface_map(surface, twice, nowhere), BATTEN_OK);
-	assert_int_equal(surface_variation_integrate(context, surface, 16, &again), BATTEN_OK);
-	near(again.per_m2, right / 4, 1e-8L * right);
+	assert_int_equal(integrate(context, surface, 16, &again), BATTEN_OK);
+	near(again.variation_per_m2, right / 4, 1e-8L * right);
 	/* the mirror changes nothing */
 	batten_surface_mirror(surface);
-	assert_int_equal(surface_variation_integrate(context, surface, 16, &found), BATTEN_OK);
-	near(found.per_m2, again.per_m2, 1e-12L * again.per_m2);
-	assert_int_equal(surface_variation_integrate(context, surface, 17, &found), BATTEN_USAGE);
+	assert_int_equal(integrate(context, surface, 16, &found), BATTEN_OK);
+	near(found.variation_per_m2, again.variation_per_m2, 1e-12L * again.variation_per_m2);
+	assert_int_equal(integrate(context, surface, 17, &found), BATTEN_USAGE);
 	batten_surface_destroy(surface);
 	batten_context_destroy(context);
 }
@@ -393,10 +402,10 @@ static void a_sphere_has_no_variation(void **state)
 	batten_context *context = open_context();
 	const batten_surface_net net = { NULL, 3, 3, 3, 3, knots, knots, poles, weights };
 	batten_surface *surface = open_surface(context, &net);
-	surface_variation_sum sum;
-	assert_int_equal(surface_variation_integrate(context, surface, 8, &sum), BATTEN_OK);
-	assert_true(sum.per_m2 == 0);
-	assert_int_equal(sum.left_out, 64);
+	batten_surface_energies sum;
+	assert_int_equal(integrate(context, surface, 8, &sum), BATTEN_OK);
+	assert_true(sum.variation_per_m2 == 0);
+	assert_int_equal(sum.variation_left_out, 64);
 	batten_surface_destroy(surface);
 	batten_context_destroy(context);
 }
