@@ -12,20 +12,8 @@
 #endif
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
-#include "shared/grid_energy.h"
+#include "shared/grid_state.h"
 #include "shared/multilevel.h"
-#include "shared/search_layout.h"
-
-typedef struct search_state {
-	int stations, waterlines, stride, nodes;
-	global const scalar *along_x, *along_z;
-	STATE real *y, *base, *trial;
-	global const real *lower, *upper, *target, *bend, *close;
-	int level_count, colour_count;
-	global const int *levels, *centres;
-	local real *lines; /* one sum a waterline */
-	grid_weights weights;
-} search_state;
 
 typedef struct search_move {
 	int station, waterline; /* centre */
@@ -33,21 +21,6 @@ typedef struct search_move {
 	scalar inverse_x, inverse_z;
 	real step;
 } search_move;
-
-static inline int node_of(const search_state *s, int station, int waterline)
-{
-	return (waterline + 1) * s->stride + (station + 1);
-}
-
-static inline node_stencil stencil_of(const search_state *s, int station, int waterline)
-{
-	node_stencil stencil;
-	for (int w = 0; w < STENCIL_SIZE; w++) {
-		stencil.x[w] = s->along_x[station * STENCIL_SIZE + w];
-		stencil.z[w] = s->along_z[waterline * STENCIL_SIZE + w];
-	}
-	return stencil;
-}
 
 static inline real moved_node(const search_state *s, const search_move *move, int station,
                               int waterline)
@@ -99,36 +72,6 @@ static inline real move_objective(const search_state *s, const search_move *move
 		}
 		sum += column;
 	}
-	return sum;
-}
-
-/* The whole objective at s->trial, the same in every work-item. */
-static inline real whole_objective(const search_state *s)
-{
-	ROLLED
-	for (int k = WORK_ITEM; k < s->waterlines; k += WORK_ITEMS) {
-		real line = SPREAD(LITERAL(0.0));
-		ROLLED
-		for (int i = 0; i < s->stations; i++) {
-			const int node = node_of(s, i, k);
-			const STATE real *b = s->trial + (node - s->stride);
-			const STATE real *h = s->trial + node;
-			const STATE real *a = s->trial + (node + s->stride);
-			const node_row below = { b[-1], b[0], b[1] };
-			const node_row here = { h[-1], h[0], h[1] };
-			const node_row above = { a[-1], a[0], a[1] };
-			line += node_objective(GRID_FAIRNESS, s->weights,
-			                       slopes_of(stencil_of(s, i, k), below, here, above),
-			                       s->bend[node], s->close[node], here.here, s->target[node]);
-		}
-		s->lines[k] = line;
-	}
-	WAIT;
-	real sum = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int k = 0; k < s->waterlines; k++)
-		sum += s->lines[k];
-	WAIT;
 	return sum;
 }
 
@@ -223,29 +166,6 @@ static inline void search_pattern(const search_state *s, mask going, int turn, s
 
 #include "shared/search_driver.h"
 
-/* The state of a group: its part of the arrays, and three arrays of nodes to work in. */
-static inline search_state state_of(int stations, int waterlines, global const scalar *stencils,
-                                    global const real *arrays, STATE real *room, local real *lines)
-{
-	search_state s;
-	s.stations = stations;
-	s.waterlines = waterlines;
-	s.stride = stations + 2;
-	s.nodes = (stations + 2) * (waterlines + 2);
-	s.along_x = stencils;
-	s.along_z = stencils + stations * STENCIL_SIZE;
-	s.y = room;
-	s.base = room + s.nodes;
-	s.trial = room + 2 * s.nodes;
-	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
-	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
-	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;
-	s.bend = arrays + SEARCH_ARRAY_BEND * s.nodes;
-	s.close = arrays + SEARCH_ARRAY_CLOSE * s.nodes;
-	s.lines = lines;
-	return s;
-}
-
 /* stencils: STENCIL_SIZE a station, then a waterline. levels: SEARCH_LEVEL_SIZE numbers each. centres:
  * station and waterline of each direction. arrays [group][SEARCH_ARRAY_COUNT][nodes], settings
  * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: 3 * nodes of
@@ -263,10 +183,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 #endif
 	arrays += group * SEARCH_ARRAY_COUNT * nodes;
 	settings += group * SEARCH_SETTING_COUNT;
-	search_state s = state_of(stations, waterlines, stencils, arrays, room, lines);
-	s.weights.along = settings[SEARCH_SETTING_ALONG];
-	s.weights.across = settings[SEARCH_SETTING_ACROSS];
-	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
+	search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
 	s.level_count = level_count;
 	s.colour_count = level_count * SEARCH_COLOUR_COUNT;
 	s.levels = levels;

@@ -1,4 +1,4 @@
-/* The multilevel search: one queue of searches, one worker a device, or the C path's threads. */
+/* The multilevel search, and the textbook's, which differs in its kernel: one queue of searches, one worker a device, or the C path's threads. */
 #include "batch/search_batch.h"
 #include "batch/search_engine.h"
 #include "batch/search_reference.h"
@@ -67,7 +67,8 @@ static size_t order_problems(const batch *b, size_t count, search_weights *weigh
 	return sound;
 }
 
-/* Two probes a direction and iteration, and what the searches counted beyond. */
+/* Two probes a direction and iteration, and what the searches counted beyond; the textbook search
+ * counts all. */
 static batten_status count_probes(const batch *b, size_t count)
 {
 	uint8_t *scratch = batten_allocate(b->work.context, b->plan->station_count,
@@ -94,7 +95,7 @@ static batten_status run_batch(batch *b, size_t count, batten_run *run)
 	}
 	if (status == BATTEN_OK)
 		status = batch_work_run(&b->work, run);
-	if (status == BATTEN_OK)
+	if (status == BATTEN_OK && b->plan->options.algorithm != BATTEN_ALGORITHM_TEXTBOOK)
 		status = count_probes(b, count);
 	work_queue_release(context, &b->work.queue);
 	batten_release(context, weights);

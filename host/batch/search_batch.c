@@ -7,7 +7,7 @@
 /* Each algorithm's way to run a batch; NULL: this version lacks it. */
 typedef batten_status search_algorithm_run(const search_call *call, batten_run *run);
 static search_algorithm_run *const algorithms[] = {
-	[BATTEN_ALGORITHM_TEXTBOOK] = NULL,
+	[BATTEN_ALGORITHM_TEXTBOOK] = multilevel_batch_run,
 	[BATTEN_ALGORITHM_MULTILEVEL] = multilevel_batch_run,
 	[BATTEN_ALGORITHM_BLOCK] = NULL,
 };
@@ -22,7 +22,7 @@ static batten_status choose(batten_context *context, batten_search_options *opti
 	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
 	if (!*run)
 		return batten_fail(context, BATTEN_USAGE,
-		                   "search algorithm %s: auto or multilevel is expected",
+		                   "search algorithm %s: auto, multilevel or textbook is expected",
 		                   batten_search_algorithm_text(options->algorithm));
 	return BATTEN_OK;
 }

@@ -15,7 +15,7 @@ typedef struct search_call {
 	batten_search_result *results;        /* [count] */
 } search_call;
 
-/* Runs the batch: every result is set, but for its algorithm, or an error returned. run is told what
+/* Of the textbook search too. Runs the batch: every result is set, but for its algorithm, or an error returned. run is told what
  * ran. Errors: USAGE, DEVICE, KERNEL, MEMORY. */
 batten_status multilevel_batch_run(const search_call *call, batten_run *run);
 

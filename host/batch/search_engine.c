@@ -22,7 +22,8 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 		                   .precision = plan->options.precision,
 		                   .lanes = plan->options.lanes,
 		                   .work_group = plan->options.work_group,
-		                   .fairness = plan->fairness };
+		                   .fairness = plan->fairness,
+		                   .textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK };
 	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
 	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
 	const size_t state = (3 * plan->node_count + plan->waterline_count + 2 * shape.work_group) *
@@ -49,8 +50,9 @@ bool search_engine_is_strict(const search_engine *e)
 batten_status search_engine_open(batten_context *context, const search_shape *shape,
                                  search_engine **out, batten_selftest *result)
 {
-	batch_engine_recipe recipe = { .kernel = "multilevel",
-		                           .source = kernel_source_multilevel,
+	batch_engine_recipe recipe = { .kernel = shape->textbook ? "textbook" : "multilevel",
+		                           .source = shape->textbook ? kernel_source_textbook
+		                                                     : kernel_source_multilevel,
 		                           .device = shape->device,
 		                           .precision = shape->precision,
 		                           .lanes = shape->lanes,

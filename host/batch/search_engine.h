@@ -12,6 +12,7 @@ typedef struct search_shape {
 	unsigned lanes, work_group;
 	bool global_state; /* the grid's state does not fit the device's local memory */
 	int fairness;      /* GRID_BENDING ... */
+	bool textbook;     /* that kernel, else multilevel */
 } search_shape;
 
 typedef struct search_engine search_engine;

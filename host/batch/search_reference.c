@@ -1,6 +1,7 @@
 #include "batch/search_reference.h"
 
 #include "reference/multilevel.h"
+#include "reference/textbook.h"
 
 #include <string.h>
 
@@ -10,7 +11,8 @@ batten_status search_reference_create(const search_plan *plan, search_reference 
 	search_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, search_stencil_count(plan), size);
 	search.arrays = batten_allocate(plan->context, plan->node_count, SEARCH_ARRAY_COUNT * size);
-	search.scratch = batten_allocate(plan->context, plan->node_count, 2 * size);
+	/* The textbook search asks for most: three arrays of nodes and a number a waterline. */
+	search.scratch = batten_allocate(plan->context, plan->node_count, 4 * size);
 	if (!search.stencils || !search.arrays || !search.scratch) {
 		search_reference_release(&search);
 		return BATTEN_MEMORY;
@@ -51,11 +53,12 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 	} outcome;
 	memset(search->arrays, 0, plan->node_count * SEARCH_ARRAY_COUNT * search_scalar_size(plan));
 	search_pack(plan, problem, 0, 1, search->arrays, &settings);
+	const bool textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK;
 	if (plan->options.precision == BATTEN_F64)
-		reference_multilevel_f64(&shared, search->stencils, search->arrays, settings.f64,
-		                         outcome.f64, search->scratch);
+		(textbook ? reference_textbook_f64 : reference_multilevel_f64)(
+			&shared, search->stencils, search->arrays, settings.f64, outcome.f64, search->scratch);
 	else
-		reference_multilevel_f32(&shared, search->stencils, search->arrays, settings.f32,
-		                         outcome.f32, search->scratch);
+		(textbook ? reference_textbook_f32 : reference_multilevel_f32)(
+			&shared, search->stencils, search->arrays, settings.f32, outcome.f32, search->scratch);
 	search_unpack(plan, problem, 0, 1, search->arrays, &outcome, y_m, result);
 }

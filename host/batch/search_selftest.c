@@ -119,6 +119,9 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 	options.fairness = shape->fairness == GRID_MEAN    ? BATTEN_FAIRNESS_MEAN
 	                   : shape->fairness == GRID_GAUSS ? BATTEN_FAIRNESS_GAUSS
 	                                                   : BATTEN_FAIRNESS_BENDING;
+	options.algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
+	if (shape->textbook)
+		options.last_step = 1e-3; /* it takes hundreds of sweeps to what the other ends with */
 	if (shape->fairness != GRID_BENDING)
 		options.longitudinal_weight = 2.0;
 	search_plan *plan = NULL;

@@ -3,14 +3,16 @@
 #include "batch/search_engine.h"
 #include "batch/surface_engine.h"
 
-static batten_status test_search(batten_context *context, size_t index, const batten_device *device,
-                                 batten_precision precision, batten_selftest *result)
+static batten_status test_offsets(batten_context *context, size_t index,
+                                  const batten_device *device, batten_precision precision,
+                                  batten_search_algorithm algorithm, batten_selftest *result)
 {
 	const double x[] = { 0.0, 1.0, 2.0 };
 	const batten_grid grid = { 3, 3, x, x };
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.precision = precision;
+	options.algorithm = algorithm;
 	search_plan *plan = NULL;
 	search_engine *engine = NULL;
 	const batten_status made = search_plan_create(context, &grid, 0, NULL, &options, &plan);
@@ -19,6 +21,19 @@ static batten_status test_search(batten_context *context, size_t index, const ba
 	const search_shape shape = search_shape_choose(plan, index, device);
 	search_plan_destroy(plan);
 	return search_engine_open(context, &shape, &engine, result);
+}
+
+static batten_status test_search(batten_context *context, size_t index, const batten_device *device,
+                                 batten_precision precision, batten_selftest *result)
+{
+	return test_offsets(context, index, device, precision, BATTEN_ALGORITHM_MULTILEVEL, result);
+}
+
+static batten_status test_textbook(batten_context *context, size_t index,
+                                   const batten_device *device, batten_precision precision,
+                                   batten_selftest *result)
+{
+	return test_offsets(context, index, device, precision, BATTEN_ALGORITHM_TEXTBOOK, result);
 }
 
 static batten_status test_surfaces(batten_context *context, size_t index,
@@ -58,8 +73,8 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
 	static batten_status (*const tests[])(
 		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search, test_surfaces, test_nets };
-	enum { PRECISIONS = 2, TESTS = 3 };
+		batten_selftest *) = { test_search, test_textbook, test_surfaces, test_nets };
+	enum { PRECISIONS = 2, TESTS = 4 };
 	*count = (size_t)PRECISIONS * TESTS;
 	for (size_t t = 0; t < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,

@@ -123,9 +123,9 @@ static void report_test(size_t index, const batten_selftest *test, bool as_json,
 
 static batten_status test_device(batten_context *context, size_t index, bool as_json, json_t *list)
 {
-	batten_selftest tests[8];
+	batten_selftest tests[16];
 	size_t count = 0;
-	const batten_status status = batten_device_selftest(context, index, tests, 8, &count);
+	const batten_status status = batten_device_selftest(context, index, tests, 16, &count);
 	if (status != BATTEN_OK)
 		return cli_failure("selftest", context, status);
 	batten_status worst = BATTEN_OK;

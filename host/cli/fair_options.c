@@ -22,7 +22,7 @@ static batten_status check_word(const char *option, const char *found, const cha
 static batten_status check_words(const fair_request *request)
 {
 	static const char *const methods[] = { "search", NULL };
-	static const char *const searches[] = { "auto", "multilevel", NULL };
+	static const char *const searches[] = { "auto", "textbook", "multilevel", NULL };
 	static const char *const variables[] = { "offsets", "net", NULL };
 	batten_status status = check_word("method", request->method, methods);
 	if (status == BATTEN_OK)
@@ -121,6 +121,23 @@ static batten_status read_locks(const char *text, const batten_hull *hull,
 	return BATTEN_OK;
 }
 
+/* The textbook search takes hundreds to thousands of sweeps. */
+enum { TEXTBOOK_ITERATIONS = 20000 };
+
+static batten_status read_search(const fair_request *request, batten_search_options *options)
+{
+	if (strcmp(request->search, "multilevel") == 0)
+		options->algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+	if (strcmp(request->search, "textbook") != 0)
+		return BATTEN_OK;
+	if (strcmp(request->variables, "net") == 0)
+		return cli_usage("fair", "--search: found 'textbook', expected auto or multilevel with "
+		                         "--variables net");
+	options->algorithm = BATTEN_ALGORITHM_TEXTBOOK;
+	options->iteration_limit = TEXTBOOK_ITERATIONS;
+	return BATTEN_OK;
+}
+
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,
                                 batten_fair_options *options, fair_locks *locks)
 {
@@ -147,9 +164,10 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 		options->search.longitudinal_weight = request->longitudinal;
 	if (!isnan(request->transverse))
 		options->search.transverse_weight = request->transverse;
+	status = read_search(request, &options->search);
 	if (request->iterations != UINT_MAX)
 		options->search.iteration_limit = request->iterations;
-	if (request->max_distance)
+	if (status == BATTEN_OK && request->max_distance)
 		status = read_distance(request->max_distance, options);
 	if (status == BATTEN_OK && request->lock)
 		status = read_locks(request->lock, hull, options, locks);

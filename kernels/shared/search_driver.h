@@ -69,15 +69,8 @@ SHARED_FUNCTION void search_run(const search_state *s, int iteration_limit,
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
 		values[n] = s->y[n];
-	if (WORK_ITEM != 0)
-		return;
-	outcome[SEARCH_OUTCOME_START] = start;
-	outcome[SEARCH_OUTCOME_END] = p.objective;
-	outcome[SEARCH_OUTCOME_STEP] = p.step;
-	outcome[SEARCH_OUTCOME_ITERATIONS] = p.iterations;
-	outcome[SEARCH_OUTCOME_MOVES] = p.moves;
-	outcome[SEARCH_OUTCOME_EXTRA_HIGH] = p.extra_high;
-	outcome[SEARCH_OUTCOME_EXTRA_LOW] = p.extra_low;
+	if (WORK_ITEM == 0)
+		search_tell(&p, start, outcome);
 }
 
 #endif

@@ -20,12 +20,7 @@
 
 #include "dialect.h"
 #include "multilevel.h"
-#include "search_layout.h"
-
-/* What a lane has come to; the same in every work-item. */
-typedef struct search_progress {
-	real objective, step, iterations, moves, extra_high, extra_low;
-} search_progress;
+#include "search_progress.h"
 
 /* Exploratory move along one direction: +h, -h and the bottom of the parabola through them; the best
  * is taken where it is a gain. One call of the objective in a loop: PoCL compiles each call anew.
@@ -106,20 +101,6 @@ SHARED_FUNCTION void search_gather(LOCAL real *gathered, real *longest, real *ex
 		*extra += gathered[WORK_ITEMS + w];
 	}
 	WAIT;
-}
-
-SHARED_FUNCTION void search_count(search_progress *p, real probes)
-{
-	const real block = SPREAD(LITERAL(1048576.0));
-	p->extra_low += probes;
-	/* f32 counts whole numbers up to 2^24, which one iteration's probes on the largest grid allowed
-	 * stay below: sixteen turns clear them. */
-	ROLLED
-	for (int turn = 0; turn < 16; turn++) {
-		const mask full = p->extra_low >= block;
-		p->extra_high += CHOOSE(full, SPREAD(LITERAL(1.0)), SPREAD(LITERAL(0.0)));
-		p->extra_low = CHOOSE(full, p->extra_low - block, p->extra_low);
-	}
 }
 
 #endif

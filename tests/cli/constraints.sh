@@ -47,6 +47,18 @@ expect 2 fair "$hull" --longitudinal 0 --transverse 0 --out out
 one_line
 says 'transverse weight'
 
+# --search textbook ends a little above what multilevel finds, and is named.
+for search in textbook multilevel; do
+	expect 0 fair "$hull" --w1 1 --w2 1e5 --search $search --device reference --out $search
+	[ "$(member $search/report.json method search)" = $search ] || fail 'the report names another search'
+done
+holds '--search textbook' 'a >= b * (1 - 1e-9) && a <= b * (1 + 1e-4)' \
+	a="$(member textbook/report.json search objective_after)" \
+	b="$(member multilevel/report.json search objective_after)"
+expect 2 fair "$hull" --search textbook --variables net --out out
+one_line
+says "'textbook'"
+
 # --lock: a station, a waterline and a point stay to the last bit, their neighbours do not.
 expect 0 fair "$hull" $weights --lock station:4.8,waterline:1,point:8@0.47368421052631576 --out out
 for x in 0.8 4.8 8; do

@@ -23,9 +23,12 @@ static void test_lanes(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING }, { 0, BATTEN_F64, 2, 1, false, GRID_BENDING },
-		{ 0, BATTEN_F64, 4, 1, false, GRID_BENDING }, { 0, BATTEN_F64, 16, 1, false, GRID_BENDING },
-		{ 0, BATTEN_F32, 1, 1, false, GRID_BENDING }, { 0, BATTEN_F32, 8, 1, false, GRID_BENDING },
+		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 4, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 16, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F32, 1, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F32, 8, 1, false, GRID_BENDING, false },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -34,10 +37,10 @@ static void test_work_groups(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING },
-		{ 0, BATTEN_F64, 1, 64, false, GRID_BENDING },
-		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING },
-		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING },
+		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 1, 64, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false },
+		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -46,11 +49,27 @@ static void test_global_state(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING },
-		{ 0, BATTEN_F64, 1, 16, true, GRID_BENDING },
-		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING },
+		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 1, 16, true, GRID_BENDING, false },
+		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING, false },
 	};
 	check(shapes, sizeof shapes / sizeof shapes[0]);
+}
+
+static void test_textbook_and_other_fairness(void **state)
+{
+	(void)state;
+	static const search_shape shapes[] = {
+		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, true },
+		{ 0, BATTEN_F32, 1, 7, false, GRID_BENDING, true },
+		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING_WEIGHTED, false },
+		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false },
+		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false },
+	};
+	search_case c = search_case_open("npl_parent", 0.01, true);
+	for (size_t s = 0; s < sizeof shapes / sizeof shapes[0]; s++)
+		search_equal_check(&c, &shapes[s]);
+	search_case_close(&c);
 }
 
 int main(void)
@@ -59,6 +78,7 @@ int main(void)
 		cmocka_unit_test(test_lanes),
 		cmocka_unit_test(test_work_groups),
 		cmocka_unit_test(test_global_state),
+		cmocka_unit_test(test_textbook_and_other_fairness),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

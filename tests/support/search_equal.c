@@ -29,6 +29,19 @@ void search_equal_compare(const search_case *c, const double *y,
 	assert_memory_equal(y, known_y, EQUAL_COUNT * c->nodes * sizeof *y);
 }
 
+/* The textbook search takes thousands of sweeps to its last step: some will do. */
+static void set_options(const search_shape *shape, batten_search_options *options)
+{
+	options->algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
+	if (shape->textbook)
+		options->iteration_limit = 25;
+	options->fairness = shape->fairness == GRID_MEAN    ? BATTEN_FAIRNESS_MEAN
+	                    : shape->fairness == GRID_GAUSS ? BATTEN_FAIRNESS_GAUSS
+	                                                    : BATTEN_FAIRNESS_BENDING;
+	if (shape->fairness != GRID_BENDING)
+		options->longitudinal_weight = 3.0;
+}
+
 static void run_engine(const search_case *c, const search_shape *shape,
                        const batten_search_problem *problems, double *y,
                        batten_search_result *results)
@@ -36,6 +49,7 @@ static void run_engine(const search_case *c, const search_shape *shape,
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.precision = shape->precision;
+	set_options(shape, &options);
 	search_plan *plan = NULL;
 	search_engine *engine = NULL;
 	size_t which[EQUAL_COUNT];
@@ -65,9 +79,10 @@ void search_equal_check(const search_case *c, const search_shape *shape)
 	batten_search_options_default(&options);
 	options.device = BATTEN_DEVICE_REFERENCE;
 	options.precision = shape->precision;
+	set_options(shape, &options);
 	const batten_status status = batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems,
 	                                                 &options, known_y, known, NULL);
-	assert_int_equal(status, BATTEN_OK);
+	assert_true(status == BATTEN_OK || status == BATTEN_INCOMPLETE);
 	run_engine(c, shape, problems, y, results);
 	search_equal_compare(c, y, results, known_y, known);
 	free(y);

@@ -381,7 +381,7 @@ static void test_bad_arguments(void **state)
 			options.first_step = options.last_step = 1e-3;
 			break;
 		case 8:
-			options.algorithm = BATTEN_ALGORITHM_TEXTBOOK;
+			options.algorithm = (batten_search_algorithm)7;
 			break;
 		case 9:
 			options.algorithm = (batten_search_algorithm)99;

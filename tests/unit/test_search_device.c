@@ -22,9 +22,9 @@ static void test_selftest_is_equal(void **state)
 	assert_int_equal(devices, 2);
 	size_t built = 0;
 	for (size_t d = 0; d < devices; d++) {
-		batten_selftest tests[8];
+		batten_selftest tests[16];
 		size_t count = 0;
-		assert_int_equal(batten_device_selftest(context, d, tests, 8, &count), BATTEN_OK);
+		assert_int_equal(batten_device_selftest(context, d, tests, 16, &count), BATTEN_OK);
 		for (size_t t = 0; t < count; t++) {
 			assert_int_equal(tests[t].result, BATTEN_SELFTEST_EQUAL);
 			assert_true(tests[t].compared > 1000);
@@ -32,8 +32,8 @@ static void test_selftest_is_equal(void **state)
 			built++;
 		}
 	}
-	/* f64 and f32 of the three kernels on each device. */
-	assert_int_equal(built, 12);
+	/* f64 and f32 of the four kernels on each device. */
+	assert_int_equal(built, 16);
 	batten_selftest test;
 	size_t count = 0;
 	assert_int_equal(batten_device_selftest(context, 99, &test, 1, &count), BATTEN_DEVICE);
@@ -44,8 +44,10 @@ static void test_default_shapes_equal_the_c_path(void **state)
 {
 	(void)state;
 	search_case c = search_case_open("npl_parent", 0.01, true);
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING });
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING });
+	search_equal_check(&c, &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, false });
+	search_equal_check(&c, &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, false });
+	search_equal_check(&c, &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, true });
+	search_equal_check(&c, &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, true });
 	search_case_close(&c);
 }
 

@@ -1,0 +1,96 @@
+/* A search over an offset grid at work: its part of memory, and the whole objective.
+ *
+ * Defined before this is included: GRID_FAIRNESS (search_layout.h); a constant in OpenCL, in C it may look
+ * into `s`, the state at hand. */
+#ifndef BATTEN_SHARED_GRID_STATE_H
+#define BATTEN_SHARED_GRID_STATE_H
+
+#include "dialect.h"
+#include "grid_energy.h"
+#include "search_layout.h"
+
+typedef struct search_state {
+	int stations, waterlines, stride, nodes;
+	GLOBAL const scalar *along_x, *along_z;
+	STATE real *y, *base, *trial;
+	GLOBAL const real *lower, *upper, *target, *bend, *close;
+	int level_count, colour_count; /* the rest is for those that work along hats */
+	GLOBAL const int *levels, *centres;
+	LOCAL real *lines; /* one sum a waterline */
+	grid_weights weights;
+	int fairness; /* in C, for GRID_FAIRNESS */
+} search_state;
+
+SHARED_FUNCTION int node_of(const search_state *s, int station, int waterline)
+{
+	return (waterline + 1) * s->stride + (station + 1);
+}
+
+SHARED_FUNCTION node_stencil stencil_of(const search_state *s, int station, int waterline)
+{
+	node_stencil stencil;
+	for (int w = 0; w < STENCIL_SIZE; w++) {
+		stencil.x[w] = s->along_x[station * STENCIL_SIZE + w];
+		stencil.z[w] = s->along_z[waterline * STENCIL_SIZE + w];
+	}
+	return stencil;
+}
+
+/* The whole objective at s->trial, the same in every work-item. */
+SHARED_FUNCTION real whole_objective(const search_state *s)
+{
+	ROLLED
+	for (int k = WORK_ITEM; k < s->waterlines; k += WORK_ITEMS) {
+		real line = SPREAD(LITERAL(0.0));
+		ROLLED
+		for (int i = 0; i < s->stations; i++) {
+			const int node = node_of(s, i, k);
+			const STATE real *b = s->trial + (node - s->stride);
+			const STATE real *h = s->trial + node;
+			const STATE real *a = s->trial + (node + s->stride);
+			const node_row below = { b[-1], b[0], b[1] };
+			const node_row here = { h[-1], h[0], h[1] };
+			const node_row above = { a[-1], a[0], a[1] };
+			line += node_objective(GRID_FAIRNESS, s->weights,
+			                       slopes_of(stencil_of(s, i, k), below, here, above),
+			                       s->bend[node], s->close[node], here.here, s->target[node]);
+		}
+		s->lines[k] = line;
+	}
+	WAIT;
+	real sum = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int k = 0; k < s->waterlines; k++)
+		sum += s->lines[k];
+	WAIT;
+	return sum;
+}
+
+/* The state of a group: its part of the arrays, and three arrays of nodes to work in. */
+SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const scalar *stencils,
+                                      GLOBAL const real *arrays, GLOBAL const real *settings,
+                                      STATE real *room, LOCAL real *lines)
+{
+	search_state s;
+	s.stations = stations;
+	s.waterlines = waterlines;
+	s.stride = stations + 2;
+	s.nodes = (stations + 2) * (waterlines + 2);
+	s.along_x = stencils;
+	s.along_z = stencils + stations * STENCIL_SIZE;
+	s.y = room;
+	s.base = room + s.nodes;
+	s.trial = room + 2 * s.nodes;
+	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
+	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
+	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;
+	s.bend = arrays + SEARCH_ARRAY_BEND * s.nodes;
+	s.close = arrays + SEARCH_ARRAY_CLOSE * s.nodes;
+	s.lines = lines;
+	s.weights.along = settings[SEARCH_SETTING_ALONG];
+	s.weights.across = settings[SEARCH_SETTING_ACROSS];
+	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
+	return s;
+}
+
+#endif

@@ -1,0 +1,34 @@
+/* The pattern search of Hooke and Jeeves as published (thesis 7.2), whole searches in one launch, to
+ * compare with. A work-group runs BATTEN_LANES searches side by side, one a lane of `real`; its
+ * work-items share the waterlines of each objective. Arguments and layout are those of multilevel.cl;
+ * it looks at no hats.
+ *
+ * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE, GRID_FAIRNESS as in multilevel.cl. */
+#if !defined(GRID_FAIRNESS)
+#define GRID_FAIRNESS GRID_BENDING
+#endif
+#define BATTEN_DIALECT_OPENCL
+#include "shared/dialect.h"
+#include "shared/textbook.h"
+
+kernel void textbook(int stations, int waterlines, int level_count, int iteration_limit,
+                     global const int *levels, global const int *centres,
+                     global const scalar *stencils, global real *arrays,
+                     global const real *settings, global real *outcome, STATE real *room,
+                     local real *lines, local real *gathered)
+{
+	const size_t group = get_group_id(0);
+	const size_t nodes = (size_t)(stations + 2) * (size_t)(waterlines + 2);
+#if defined(STATE_IS_GLOBAL)
+	room += group * 3 * nodes;
+#endif
+	(void)level_count;
+	(void)levels;
+	(void)centres;
+	(void)gathered;
+	arrays += group * SEARCH_ARRAY_COUNT * nodes;
+	settings += group * SEARCH_SETTING_COUNT;
+	const search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
+	textbook_run(&s, iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes,
+	             outcome + group * SEARCH_OUTCOME_COUNT);
+}
