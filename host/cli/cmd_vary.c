@@ -30,6 +30,7 @@ struct job {
 	vary_request request;
 	batten_context *context;
 	batten_hull *parent, *others[VARY_LIST_MOST], *variant;
+	batten_lattice *lattice;
 	batten_vary_outcome outcome;
 	batten_measures before, after;
 };
@@ -51,12 +52,16 @@ static const struct batten_vary_target *target_named(const batten_vary_outcome *
 	return NULL;
 }
 
+static const char *method_name(const struct job *job)
+{
+	return job->request.solve ? "solve" : batten_vary_method_name(job->request.options.method);
+}
+
 static void print_table(const struct job *job)
 {
 	const batten_vary_outcome *outcome = &job->outcome;
 	(void)printf("%s, %s: %u pass%s; metres, frame ap-fwd\n\n", batten_hull_name(job->parent),
-	             batten_vary_method_name(job->request.options.method), outcome->passes,
-	             outcome->passes == 1 ? "" : "es");
+	             method_name(job), outcome->passes, outcome->passes == 1 ? "" : "es");
 	(void)printf("%-18s %13s %13s %13s %12s\n", "", "parent", "asked", "got", "changed");
 	for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
 		const struct batten_vary_target *target = target_named(outcome, shown[i]);
@@ -104,13 +109,12 @@ static batten_status print_json(const struct job *job)
 		(void)json_object_set_new(parameters, outcome->parameters[i].name,
 		                          cli_json_number(outcome->parameters[i].value));
 	json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:b, s:b, s:i, s:o, s:o, s:o, s:o, s:s}",
-	                           "name", batten_hull_name(job->parent), "method",
-	                           batten_vary_method_name(job->request.options.method), "unit", "m",
-	                           "frame", "ap-fwd", "first_pass", job->request.first_pass, "thesis",
-	                           job->request.thesis, "passes", (int)outcome->passes, "targets",
-	                           targets_json(outcome), "parameters", parameters, "parent",
-	                           measures_json(&job->before), "variant", measures_json(&job->after),
-	                           "warning", outcome->warning);
+	                           "name", batten_hull_name(job->parent), "method", method_name(job),
+	                           "unit", "m", "frame", "ap-fwd", "first_pass",
+	                           job->request.first_pass, "thesis", job->request.thesis, "passes",
+	                           (int)outcome->passes, "targets", targets_json(outcome), "parameters",
+	                           parameters, "parent", measures_json(&job->before), "variant",
+	                           measures_json(&job->after), "warning", outcome->warning);
 	return cli_json_print("vary", object);
 }
 
@@ -122,6 +126,9 @@ static batten_status read_hulls(struct job *job)
 		status = batten_hull_read(job->context, request->other_paths[i], &job->others[i]);
 	if (status == BATTEN_OK)
 		vary_request_place(request, job->parent);
+	if (status == BATTEN_OK && request->lattice)
+		status = batten_lattice_read(job->context, request->lattice, &job->lattice);
+	request->options.lattice = job->lattice;
 	request->options.others = (const batten_hull *const *)job->others;
 	return status;
 }
@@ -131,9 +138,14 @@ static batten_status make(struct job *job)
 	batten_status status = read_hulls(job);
 	if (status == BATTEN_OK)
 		status = batten_hull_measure(job->context, job->parent, NULL, &job->before);
+	const vary_request *request = &job->request;
 	if (status == BATTEN_OK)
-		status = batten_hull_vary(job->context, job->parent, &job->request.options, &job->variant,
-		                          &job->outcome);
+		status = request->solve
+		             ? batten_hull_solve(job->context, job->parent, request->solve_count,
+		                                 request->solve_targets, request->solve_parameters,
+		                                 &job->variant, &job->outcome)
+		             : batten_hull_vary(job->context, job->parent, &request->options, &job->variant,
+		                                &job->outcome);
 	if (status == BATTEN_OK)
 		status = batten_hull_measure(job->context, job->variant, NULL, &job->after);
 	if (status == BATTEN_OK)
@@ -160,6 +172,7 @@ batten_status cli_vary(int argc, char **argv)
 		return status;
 	status = make(&job);
 	batten_hull_destroy(job.variant);
+	batten_lattice_destroy(job.lattice);
 	for (size_t i = 0; i < VARY_LIST_MOST; i++)
 		batten_hull_destroy(job.others[i]);
 	batten_hull_destroy(job.parent);

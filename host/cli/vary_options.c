@@ -1,7 +1,7 @@
 #include "vary_options.h"
+#include "vary_values.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
@@ -14,7 +14,13 @@ static const cli_command command = {
 		"  batten vary data/hulls/wigley.csv --method affine --lbd 1.2,0.9,1.1 --out long.csv\n"
 		"  batten vary data/hulls/bsra_trawler.csv --method three-body --middle 12.192,18.288 \\\n"
 		"    --targets volume_m3=260,cp=0.6 --out longer.csv\n"
-		"  batten vary data/hulls/wigley.csv --method stretch --move 0:0,0.5:0.55,1:1 --out s.csv\n",
+		"  batten vary data/hulls/wigley.csv --method stretch --move 0:0,0.5:0.55,1:1 --out s.csv\n"
+		"  batten vary data/hulls/bsra_trawler.csv --method nonlinear --preset rise-of-floor \\\n"
+		"    --amount 0.1 --out risen.csv\n"
+		"  batten vary data/hulls/bsra_trawler.csv --method free-form \\\n"
+		"    --lattice data/lattices/trawler_shoulder.json --out shoulder.csv\n"
+		"  batten vary data/hulls/bsra_trawler.csv --solve volume_m3=255,lcb_pct_lbp_fwd=-1,cb=0.53 \\\n"
+		"    --by lackenby.dcp,lackenby.dlcb,affine.y --out solved.csv\n",
 	.notes =
 		"Methods and the options they take:\n"
 		"  swing                --dlcb\n"
@@ -25,9 +31,19 @@ static const cli_command command = {
 		"  affine               --lbd\n"
 		"  three-body           --targets --middle\n"
 		"  stretch              --move\n"
+		"  nonlinear            --preset --amount\n"
+		"  free-form            --lattice\n"
 		"dcp, dcb and dcwp are percent of the parent's value, dlcb and dlcf percent of LBP, + forward,\n"
 		"dp percent of the half length. What is asked for is met by iteration unless --first-pass.\n"
-		"The first four move whole sections along the ship and keep the parent's table.\n",
+		"The first four move whole sections along the ship and keep the parent's table.\n"
+		"Presets: bilge-radius (what it loses at most, part of the half-beam), rise-of-floor (at the\n"
+		"half-beam, part of the draft), u-ness (middle of the sections lowered, part of the draft),\n"
+		"v-ness (narrower towards the keel) and flare (wider to the fore and upwards), both parts of\n"
+		"the half-breadth. A lattice is JSON (data/README.md).\n"
+		"--solve meets measures of form (volume_m3, cb, cp, cm, cwp, lcb_pct_lbp_fwd, lcf_pct_lbp_fwd,\n"
+		"beam_wl_m, draft_m, lbp_m, ...) by as many parameters of methods: swing.dlcb,\n"
+		"one-minus-prismatic.dcp .dlcb, lackenby.dcp .dlcb .dp-fore .dp-aft, moor.dcb .dlcb .dcwp .dlcf,\n"
+		"affine.x .y .z, nonlinear.PRESET; ranges as lackenby.dcp=-10:10.\n",
 };
 
 /* Which methods take an option, a bit each. */
@@ -59,6 +75,9 @@ static batten_status check_owned(const vary_request *request)
 		{ "targets", request->targets, TAKES(THREE_BODY) },
 		{ "middle", request->middle, TAKES(THREE_BODY) },
 		{ "move", request->move, TAKES(STRETCH) },
+		{ "preset", request->preset, TAKES(NONLINEAR) },
+		{ "amount", !isnan(request->amount), TAKES(NONLINEAR) },
+		{ "lattice", request->lattice, TAKES(FREE_FORM) },
 		{ "thesis", request->thesis, moved },
 		{ "first-pass", request->first_pass, moved | TAKES(THREE_BODY) },
 	};
@@ -80,122 +99,8 @@ static batten_status read_method(vary_request *request)
 		}
 	return cli_usage("vary",
 	                 "--method: found '%s', expected swing, one-minus-prismatic, lackenby, moor, "
-	                 "average, affine, three-body or stretch",
+	                 "average, affine, three-body, stretch, nonlinear or free-form",
 	                 request->method);
-}
-
-/* A finite number at the start of a text; *end gets what follows it. */
-static bool read_number(const char *text, double *out, const char **end)
-{
-	char *stop = NULL;
-	*out = strtod(text, &stop);
-	*end = stop;
-	return stop != text && isfinite(*out);
-}
-
-/* Numbers with commas between them, as many as there is room for. 0: no such list. */
-static size_t read_numbers(const char *text, double *out, size_t most)
-{
-	for (size_t count = 0; count < most; text++) {
-		if (!read_number(text, &out[count], &text))
-			return 0;
-		count++;
-		if (*text == '\0')
-			return count;
-		if (*text != ',')
-			return 0;
-	}
-	return 0;
-}
-
-static batten_status read_lbd(vary_request *request)
-{
-	double factors[3];
-	if (!request->lbd || read_numbers(request->lbd, factors, 3) != 3)
-		return cli_usage("vary",
-		                 "--lbd: found '%s', expected three factors of length, breadth, "
-		                 "depth, as 1.2,0.9,1.1",
-		                 request->lbd ? request->lbd : "");
-	request->options.scale_x = factors[0];
-	request->options.scale_y = factors[1];
-	request->options.scale_z = factors[2];
-	return BATTEN_OK;
-}
-
-static batten_status read_average(vary_request *request)
-{
-	if (!request->with || !request->weight)
-		return cli_usage("vary", "average expects --with FILE[,FILE ...] and --weight W[,W ...]");
-	const size_t length = strlen(request->with);
-	if (length >= sizeof request->paths)
-		return cli_usage("vary", "--with: the list is too long");
-	memcpy(request->paths, request->with, length + 1);
-	for (char *path = request->paths; path && request->other_count < VARY_LIST_MOST;) {
-		request->other_paths[request->other_count++] = path;
-		path = strchr(path, ',');
-		if (path)
-			*path++ = '\0';
-	}
-	const size_t weights = read_numbers(request->weight, request->weights, VARY_LIST_MOST);
-	if (weights != request->other_count)
-		return cli_usage("vary", "--weight: found '%s', expected %zu number%s, one for each hull",
-		                 request->weight, request->other_count,
-		                 request->other_count == 1 ? "" : "s");
-	request->options.other_count = request->other_count;
-	request->options.weights = request->weights;
-	return BATTEN_OK;
-}
-
-static batten_status read_targets(vary_request *request)
-{
-	batten_vary_options *options = &request->options;
-	const struct {
-		const char *name;
-		double *value;
-	} known[] = {
-		{ "volume_m3=", &options->volume_m3 },
-		{ "lcb_pct_lbp_fwd=", &options->lcb_pct_lbp_fwd },
-		{ "cp=", &options->cp },
-	};
-	for (const char *text = request->targets ? request->targets : ""; *text;) {
-		size_t i = 0;
-		while (i < 3 && strncmp(text, known[i].name, strlen(known[i].name)) != 0)
-			i++;
-		if (i == 3 || !isnan(*known[i].value) ||
-		    !read_number(text + strlen(known[i].name), known[i].value, &text) ||
-		    (*text != ',' && *text != '\0') || (*text == ',' && text[1] == '\0'))
-			return cli_usage("vary",
-			                 "--targets: found '%s', expected volume_m3=V,lcb_pct_lbp_fwd=X,cp=C, "
-			                 "each at most once",
-			                 request->targets);
-		text += *text == ',';
-	}
-	if (request->middle && read_numbers(request->middle, request->middle_file, 2) != 2)
-		return cli_usage("vary", "--middle: found '%s', expected two x of the file, as 12,18",
-		                 request->middle);
-	return BATTEN_OK;
-}
-
-static batten_status read_move(vary_request *request)
-{
-	size_t count = 0;
-	const char *text = request->move ? request->move : "";
-	bool good = *text != '\0';
-	for (; good && *text && count < VARY_LIST_MOST; count++) {
-		good = read_number(text, &request->from[count], &text) && *text == ':';
-		good = good && read_number(text + 1, &request->to[count], &text) &&
-		       (*text == '\0' || (*text == ',' && text[1] != '\0'));
-		text += good && *text == ',';
-	}
-	if (!good || *text || count < 2)
-		return cli_usage("vary",
-		                 "--move: found '%s', expected parts of LBP from the AP and where "
-		                 "they go, as 0:0,0.5:0.55,1:1",
-		                 request->move ? request->move : "");
-	request->options.point_count = count;
-	request->options.from_part = request->from;
-	request->options.to_part = request->to;
-	return BATTEN_OK;
 }
 
 static void take_number(double given, double *option)
@@ -220,13 +125,17 @@ static batten_status read_values(vary_request *request)
 	take_number(request->lcf_used, &options->lcf_used_pct);
 	switch (options->method) {
 	case BATTEN_VARY_AVERAGE:
-		return read_average(request);
+		return vary_read_average(request);
 	case BATTEN_VARY_AFFINE:
-		return read_lbd(request);
+		return vary_read_lbd(request);
 	case BATTEN_VARY_THREE_BODY:
-		return read_targets(request);
+		return vary_read_targets(request);
 	case BATTEN_VARY_STRETCH:
-		return read_move(request);
+		return vary_read_move(request);
+	case BATTEN_VARY_NONLINEAR:
+		return vary_read_preset(request);
+	case BATTEN_VARY_FREE_FORM:
+		return request->lattice ? BATTEN_OK : cli_usage("vary", "--lattice FILE was expected");
 	default:
 		return BATTEN_OK;
 	}
@@ -266,6 +175,12 @@ static batten_status parse(int argc, char **argv, vary_request *request, size_t 
 		{ "middle", CLI_TEXT, &request->middle, "X,X",
 		  "ends of the middle body, x of the file (the parallel body)" },
 		{ "move", CLI_TEXT, &request->move, "FROM:TO,...", "parts of LBP from the AP" },
+		{ "preset", CLI_TEXT, &request->preset, "NAME", "a shape the nonlinear method knows" },
+		{ "amount", CLI_NUMBER, &request->amount, "A", "how much of it" },
+		{ "lattice", CLI_TEXT, &request->lattice, "FILE.json", "poles of a lattice that move" },
+		{ "solve", CLI_TEXT, &request->solve, "NAME=VALUE,...",
+		  "measures to be met, in place of --method" },
+		{ "by", CLI_TEXT, &request->by, "PARAMETER,...", "what may change, as many" },
 		{ "first-pass", CLI_FLAG, &request->first_pass, NULL, "one pass, no iteration" },
 		{ "thesis", CLI_FLAG, &request->thesis, NULL,
 		  "the thesis's procedure: 21 sections, areas from six waterlines" },
@@ -285,7 +200,8 @@ batten_status vary_request_read(int argc, char **argv, vary_request *request, bo
 		                       .dp_fore = NAN,
 		                       .dp_aft = NAN,
 		                       .lcb_used = NAN,
-		                       .lcf_used = NAN };
+		                       .lcf_used = NAN,
+		                       .amount = NAN };
 	batten_vary_options_default(&request->options);
 	size_t count = 0;
 	batten_status status = parse(argc, argv, request, &count, done);
@@ -293,6 +209,8 @@ batten_status vary_request_read(int argc, char **argv, vary_request *request, bo
 		return status;
 	if (count != 1)
 		return cli_usage("vary", "an offsets file was expected");
+	if (request->solve || request->by)
+		return vary_read_solve(request);
 	status = read_method(request);
 	if (status == BATTEN_OK && !request->out)
 		status = cli_usage("vary", "--out FILE.csv was expected");

@@ -12,7 +12,8 @@ typedef struct vary_request {
 	/* as given; numbers NaN, texts NULL where not */
 	bool first_pass, thesis;
 	double dcp, dcb, dlcb, dcwp, dlcf, dp_fore, dp_aft, lcb_used, lcf_used;
-	const char *with, *weight, *lbd, *targets, *middle, *move;
+	const char *with, *weight, *lbd, *targets, *middle, *move, *preset, *lattice, *solve, *by;
+	double amount;
 	/* as read */
 	batten_vary_options options;
 	size_t other_count;
@@ -20,6 +21,11 @@ typedef struct vary_request {
 	char paths[8192];
 	double weights[VARY_LIST_MOST], from[VARY_LIST_MOST], to[VARY_LIST_MOST];
 	double middle_file[2]; /* in the frame and unit of the file */
+	/* of a solve: names in place of a method */
+	size_t solve_count;
+	batten_solve_target solve_targets[BATTEN_VARY_TARGETS_MOST];
+	batten_solve_parameter solve_parameters[BATTEN_VARY_TARGETS_MOST];
+	char names[2][2048]; /* of targets and parameters */
 } vary_request;
 
 /* Fills a request from the command line; *done where help was printed. Errors: USAGE (message

@@ -9,24 +9,31 @@ typedef struct section_points {
 	unsigned char *breaks;
 } section_points;
 
-/* Marks knuckles and gaps at and between points first .. first + count - 1 of a line. */
-static void mark_breaks(const batten_hull *hull, bool waterline, size_t line,
-                        const hull_line *points, size_t first, size_t count, unsigned char *breaks)
+void section_mark_knuckles(const batten_hull *hull, bool waterline, size_t line, size_t count,
+                           const double *along_m, unsigned char *breaks)
 {
 	const double *table = waterline ? hull->x_m : hull->z_m;
 	size_t table_count = waterline ? hull->station_count : hull->waterline_count;
 	/* hull_knuckle_between() takes a knuckle within 1e-9 of the table for one at the end */
 	double near = 4e-9 * (table[table_count - 1] - table[0]);
 	for (size_t i = 0; i + 1 < count; i++) {
-		double here = points->along_m[first + i], next = points->along_m[first + i + 1];
-		unsigned char mark = CURVE_SMOOTH;
+		double here = along_m[i], next = along_m[i + 1];
+		breaks[i] = CURVE_SMOOTH;
 		if (hull_knuckle_between(hull, waterline, line, here, here))
-			mark |= CURVE_BREAK_AT;
-		if (points->gap[first + i + 1] ||
-		    hull_knuckle_between(hull, waterline, line, here + near, next - near))
-			mark |= CURVE_BREAK_AFTER;
-		breaks[i] = mark;
+			breaks[i] |= CURVE_BREAK_AT;
+		if (hull_knuckle_between(hull, waterline, line, here + near, next - near))
+			breaks[i] |= CURVE_BREAK_AFTER;
 	}
+}
+
+/* Marks knuckles and gaps at and between points first .. first + count - 1 of a line. */
+static void mark_breaks(const batten_hull *hull, bool waterline, size_t line,
+                        const hull_line *points, size_t first, size_t count, unsigned char *breaks)
+{
+	section_mark_knuckles(hull, waterline, line, count, points->along_m + first, breaks);
+	for (size_t i = 0; i + 1 < count; i++)
+		if (points->gap[first + i + 1])
+			breaks[i] |= CURVE_BREAK_AFTER;
 }
 
 /* Drops zeros that stand before another zero, at both ends: the hull begins and ends at the one

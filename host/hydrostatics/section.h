@@ -10,6 +10,10 @@ typedef struct section_ends {
 	double aft_x_m, aft_y_m, fore_x_m, fore_y_m;
 } section_ends;
 
+/* Marks (enum curve_break, [count]) the knuckles of a line at and between so many places along it. */
+void section_mark_knuckles(const batten_hull *hull, bool waterline, size_t line, size_t count,
+                           const double *along_m, unsigned char *breaks);
+
 /* What all sections of a hull are taken from: made once. */
 typedef struct section_source {
 	const batten_hull *hull;

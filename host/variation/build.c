@@ -121,9 +121,6 @@ static batten_status build_moved(const variation_parent *parent, const batten_va
 		batten_hull_destroy(variant);
 		return status;
 	}
-	if (variant->knuckle_count > 0)
-		warn(outcome, "knuckles of waterlines moved along, those of stations stay; lines are "
-		              "splined across them");
 	*out = variant;
 	return BATTEN_OK;
 }
@@ -226,6 +223,10 @@ batten_status variation_build(const variation_parent *parent, const batten_vary_
 		return variation_affine(parent->context, parent->hull, options, out);
 	case BATTEN_VARY_STRETCH:
 		return variation_stretch(parent->context, parent->hull, options, out);
+	case BATTEN_VARY_NONLINEAR:
+		return variation_nonlinear(parent->context, parent->hull, options, out, outcome);
+	case BATTEN_VARY_FREE_FORM:
+		return variation_free_form(parent->context, parent->hull, options, out, outcome);
 	case BATTEN_VARY_THREE_BODY:
 		return build_bodies(parent, options, p, out, outcome);
 	default:

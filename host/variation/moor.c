@@ -118,11 +118,10 @@ static batten_status take_line(const variation_moor *moor, const variation_line 
 {
 	const variation_parent *parent = moor->parent;
 	const batten_hull *hull = parent->hull;
-	struct spline spline = { 0 };
+	curve shape = { 0 };
 	batten_status status = BATTEN_OK;
 	if (line->count >= 2)
-		status = spline_create(parent->context, line->count, line->x_m, line->y_m, SPLINE_NATURAL,
-		                       &spline);
+		status = variation_line_curve(parent->context, line, &shape);
 	if (status != BATTEN_OK)
 		return status;
 	for (size_t s = 0; s < hull->station_count; s++) {
@@ -130,9 +129,9 @@ static batten_status take_line(const variation_moor *moor, const variation_line 
 		const double factor = stays(&parent->span, x) || !(breadth > 0)
 		                          ? 1
 		                          : fmax(spline_value(&moor->waterline, x), 0) / breadth;
-		y_m[s] = line->count >= 2 ? fmax(spline_value(&spline, places[s]), 0) * factor : NAN;
+		y_m[s] = line->count >= 2 ? fmax(curve_value(&shape, places[s]), 0) * factor : NAN;
 	}
-	spline_destroy(&spline);
+	curve_destroy(&shape);
 	return BATTEN_OK;
 }
 
@@ -158,6 +157,8 @@ batten_status variation_moor_apply(const variation_moor *moor, batten_hull *vari
 	}
 	for (size_t w = 0; w < variant->waterline_count && status == BATTEN_OK; w++)
 		status = take_line(moor, &moor->parent->lines[w], places, y + w * stations);
+	if (status == BATTEN_OK)
+		status = variation_carry_chines(moor->parent->hull, variant->x_m, places, variant);
 	if (status == BATTEN_OK)
 		status = variation_set_offsets(variant, y);
 	batten_release(context, places);

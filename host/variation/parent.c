@@ -42,66 +42,6 @@ batten_status variation_mark_source(batten_hull *variant)
 }
 
 /* ------------------------------------------------------------------------------------------------
- * Lines
- * --------------------------------------------------------------------------------------------- */
-
-batten_status variation_line_create(batten_context *context, size_t count, variation_line *out)
-{
-	*out = (variation_line){ 0 };
-	out->x_m = batten_allocate(context, count, 2 * sizeof *out->x_m);
-	if (!out->x_m)
-		return BATTEN_MEMORY;
-	out->y_m = out->x_m + count;
-	return BATTEN_OK;
-}
-
-static void add_point(variation_line *line, double x_m, double y_m)
-{
-	line->x_m[line->count] = x_m;
-	line->y_m[line->count] = y_m;
-	line->count++;
-}
-
-/* The points of the hull, and the empty cells between and beyond them as 0; beyond an end off the
- * grid there is nothing. Lines of long layouts are their points and nothing else. */
-static void take_points(const batten_hull *hull, const hull_line *points, variation_line *line)
-{
-	const bool listed = hull->layout != HULL_LAYOUT_GRID;
-	line->ends_aft = listed || (points->count > 0 && points->place[0] == SIZE_MAX);
-	line->ends_fore = listed || (points->count > 0 && points->place[points->count - 1] == SIZE_MAX);
-	size_t next = 0;
-	for (size_t s = 0; s < hull->station_count; s++) {
-		while (next < points->count && points->along_m[next] < hull->x_m[s]) {
-			add_point(line, points->along_m[next], points->value_m[next]);
-			next++;
-		}
-		const bool aft = next == 0, fore = next == points->count;
-		if (next < points->count && points->place[next] == s) {
-			add_point(line, hull->x_m[s], points->value_m[next]);
-			next++;
-		} else if (!listed && !(aft && line->ends_aft) && !(fore && line->ends_fore)) {
-			add_point(line, hull->x_m[s], 0);
-		}
-	}
-	for (; next < points->count; next++)
-		add_point(line, points->along_m[next], points->value_m[next]);
-}
-
-static batten_status take_line(const variation_parent *parent, size_t number, variation_line *line)
-{
-	const batten_hull *hull = parent->hull;
-	hull_line points;
-	batten_status status = hull_line_collect(hull, true, number, true, &points);
-	if (status != BATTEN_OK)
-		return status;
-	status = variation_line_create(parent->context, points.count + hull->station_count, line);
-	if (status == BATTEN_OK)
-		take_points(hull, &points, line);
-	hull_line_release(hull, &points);
-	return status;
-}
-
-/* ------------------------------------------------------------------------------------------------
  * Areas and the load waterline
  * --------------------------------------------------------------------------------------------- */
 
@@ -156,13 +96,12 @@ static batten_status take_middle(const variation_parent *parent)
 		if (line->count < 2 || (line->ends_aft && x < line->x_m[0]) ||
 		    (line->ends_fore && x > line->x_m[line->count - 1]))
 			continue;
-		struct spline spline;
-		const batten_status status = spline_create(parent->context, line->count, line->x_m,
-		                                           line->y_m, SPLINE_NATURAL, &spline);
+		curve shape;
+		const batten_status status = variation_line_curve(parent->context, line, &shape);
 		if (status != BATTEN_OK)
 			return status;
-		line->middle_m = fmax(spline_value(&spline, x), 0);
-		spline_destroy(&spline);
+		line->middle_m = fmax(curve_value(&shape, x), 0);
+		curve_destroy(&shape);
 	}
 	return BATTEN_OK;
 }
@@ -253,7 +192,7 @@ batten_status variation_parent_create(batten_context *context, const batten_hull
 void variation_parent_destroy(variation_parent *parent)
 {
 	for (size_t w = 0; parent->lines && w < parent->hull->waterline_count; w++)
-		batten_release(parent->context, parent->lines[w].x_m);
+		variation_line_destroy(parent->context, &parent->lines[w]);
 	batten_release(parent->context, parent->lines);
 	spline_destroy(&parent->areas);
 	spline_destroy(&parent->waterline);
@@ -277,7 +216,7 @@ batten_status variation_parent_sections(variation_parent *parent, bool thesis)
 	} else {
 		find_parallel(hull, &parent->span);
 		for (size_t w = 0; w < hull->waterline_count && status == BATTEN_OK; w++)
-			status = take_line(parent, w, &parent->lines[w]);
+			status = variation_line_take(parent->context, hull, w, &parent->lines[w]);
 		if (status == BATTEN_OK)
 			status = take_middle(parent);
 		if (status == BATTEN_OK)

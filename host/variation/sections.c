@@ -71,10 +71,11 @@ static bool within_body(const variation_shift *shift, double x_m)
 	       x_m <= span->middle_m + span->parallel_fore * (span->fore_m - span->middle_m);
 }
 
-static void put_point(variation_line *moved, double x_m, double y_m)
+static void put_point(variation_line *moved, double x_m, double y_m, unsigned char breaks)
 {
 	moved->x_m[moved->count] = x_m;
 	moved->y_m[moved->count] = y_m;
+	moved->breaks[moved->count] = breaks;
 	moved->count++;
 }
 
@@ -85,8 +86,8 @@ static void put_body(const variation_shift *shift, const variation_line *line,
 		return;
 	const double least = 1e-9 * (shift->span.fore_m - shift->span.aft_m);
 	if (!shift->body_open && shift->body_to_m > shift->body_from_m + least)
-		put_point(moved, shift->body_from_m, line->middle_m);
-	put_point(moved, shift->body_to_m, line->middle_m);
+		put_point(moved, shift->body_from_m, line->middle_m, CURVE_SMOOTH);
+	put_point(moved, shift->body_to_m, line->middle_m, CURVE_SMOOTH);
 }
 
 static void move_points(const variation_shift *shift, const variation_line *line,
@@ -100,7 +101,7 @@ static void move_points(const variation_shift *shift, const variation_line *line
 			body = false;
 		}
 		if (!within_body(shift, x))
-			put_point(moved, x + variation_shift_at(shift, x), line->y_m[i]);
+			put_point(moved, x + variation_shift_at(shift, x), line->y_m[i], line->breaks[i]);
 	}
 	moved->ends_aft = line->ends_aft;
 	moved->ends_fore = line->ends_fore;
@@ -109,14 +110,14 @@ static void move_points(const variation_shift *shift, const variation_line *line
 
 /* Half-breadth of a moved waterline at a station; NaN where its ends leave nothing. */
 static double value_at(const variation_shift *shift, const variation_line *moved,
-                       const struct spline *spline, double x_m)
+                       const curve *shape, double x_m)
 {
 	if ((moved->ends_aft && x_m < moved->x_m[0]) ||
 	    (moved->ends_fore && x_m > moved->x_m[moved->count - 1]))
 		return NAN;
 	if (shift->body && !shift->body_open && x_m >= shift->body_from_m && x_m <= shift->body_to_m)
 		return moved->middle_m;
-	return fmax(spline_value(spline, x_m), 0);
+	return fmax(curve_value(shape, x_m), 0);
 }
 
 /* A station between the ends of a line of a long layout that has no point there. */
@@ -136,18 +137,17 @@ static batten_status move_line(const variation_parent *parent, const variation_s
 	if (status != BATTEN_OK)
 		return status;
 	move_points(shift, line, &moved);
-	struct spline spline = { 0 };
+	curve shape = { 0 };
 	if (moved.count >= 2)
-		status = spline_create(parent->context, moved.count, moved.x_m, moved.y_m, SPLINE_NATURAL,
-		                       &spline);
+		status = variation_line_curve(parent->context, &moved, &shape);
 	const uint8_t *nodes = hull->nodes + (size_t)(line - parent->lines) * hull->station_count;
 	for (size_t s = 0; s < hull->station_count && status == BATTEN_OK; s++)
 		y_m[s] = moved.count >= 2 && !is_unlisted(hull, line, nodes[s], hull->x_m[s])
-		             ? value_at(shift, &moved, &spline, hull->x_m[s])
+		             ? value_at(shift, &moved, &shape, hull->x_m[s])
 		             : NAN;
-	spline_destroy(&spline);
-	batten_release(parent->context, moved.x_m);
-	return status == BATTEN_USAGE ? BATTEN_INPUT : status;
+	curve_destroy(&shape);
+	variation_line_destroy(parent->context, &moved);
+	return status;
 }
 
 /* Points off the grid go along, each on its own line. */
@@ -160,6 +160,19 @@ static void move_extras(const variation_shift *shift, batten_hull *variant)
 	for (size_t i = 0; i < variant->knuckle_count; i++)
 		if (variant->knuckles[i].on_waterline)
 			variant->knuckles[i].x_m += variation_shift_at(shift, variant->knuckles[i].x_m);
+}
+
+static batten_status move_chines(const batten_hull *parent, const variation_shift *shift,
+                                 batten_hull *variant)
+{
+	double *moved = batten_allocate(parent->context, parent->station_count, sizeof *moved);
+	if (!moved)
+		return BATTEN_MEMORY;
+	for (size_t s = 0; s < parent->station_count; s++)
+		moved[s] = parent->x_m[s] + variation_shift_at(shift, parent->x_m[s]);
+	const batten_status status = variation_carry_chines(parent, moved, parent->x_m, variant);
+	batten_release(parent->context, moved);
+	return status;
 }
 
 batten_status variation_move_sections(const variation_parent *parent, const variation_shift *shift,
@@ -177,6 +190,8 @@ batten_status variation_move_sections(const variation_parent *parent, const vari
 	for (size_t w = 0; w < variant->waterline_count && status == BATTEN_OK; w++)
 		status = move_line(parent, shift, &parent->lines[w], y + w * stations);
 	move_extras(shift, variant);
+	if (status == BATTEN_OK)
+		status = move_chines(parent->hull, shift, variant);
 	if (status == BATTEN_OK)
 		status = variation_set_offsets(variant, y);
 	batten_release(parent->context, y);

@@ -32,7 +32,7 @@ static batten_status spline_of(const variation_parent *parent, size_t waterline,
 			line.count++;
 		}
 	status = spline_create(parent->context, line.count, line.x_m, line.y_m, SPLINE_NATURAL, out);
-	batten_release(parent->context, line.x_m);
+	variation_line_destroy(parent->context, &line);
 	return status == BATTEN_USAGE ? BATTEN_INPUT : status;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/spline.h"
 #include "hull/hull.h"
+#include "hydrostatics/curve.h"
 #include "variation/shift.h"
 
 /* One waterline as the points a natural spline goes through. Empty cells read as 0 up to the ends of
@@ -12,6 +13,7 @@
 typedef struct variation_line {
 	size_t count;
 	double *x_m, *y_m;        /* one allocation, x first */
+	unsigned char *breaks;    /* enum curve_break: knuckles at and after each point */
 	bool ends_aft, ends_fore; /* at a point off the grid: nothing is hull beyond */
 	double middle_m;          /* half-breadth amidships */
 } variation_line;
@@ -41,6 +43,13 @@ batten_status variation_thesis_sections(variation_parent *parent);
 
 /* Room for count points. Errors: MEMORY. */
 batten_status variation_line_create(batten_context *context, size_t count, variation_line *out);
+void variation_line_destroy(batten_context *context, variation_line *line);
+/* A waterline of a hull. Errors: MEMORY. */
+batten_status variation_line_take(batten_context *context, const batten_hull *hull, size_t number,
+                                  variation_line *out);
+/* The natural spline through the two or more points of a line, broken at its knuckles. Errors: INPUT
+ * (points do not ascend), MEMORY. */
+batten_status variation_line_curve(batten_context *context, const variation_line *line, curve *out);
 
 /* Upright hydrostatics of a hull at its draft; fairness NaN. Errors: INPUT, MEMORY. */
 batten_status variation_measure(batten_context *context, const batten_hull *hull,
@@ -54,6 +63,12 @@ batten_status variation_mark_source(batten_hull *variant);
  * MEMORY. */
 batten_status variation_move_sections(const variation_parent *parent, const variation_shift *shift,
                                       batten_hull *variant);
+
+/* Heights of the knuckles of variant's stations, a clone of the parent: the sections of the parent
+ * stand at at_m[] now, those of the variant are the ones at wanted_m[] (both [stations]). Knuckles
+ * of neighbouring stations are one chine, counted from the keel. Errors: INPUT, MEMORY. */
+batten_status variation_carry_chines(const batten_hull *parent, const double *at_m,
+                                     const double *wanted_m, batten_hull *variant);
 
 /* Moor's method (thesis 2.3.4): new curves of areas and of load waterline are asked for, and each
  * station gets the parent's section from the place of the same half body where area and breadth are
@@ -83,7 +98,25 @@ batten_status variation_set_offsets(batten_hull *variant, const double *y_m);
 batten_status variation_build(const variation_parent *parent, const batten_vary_options *options,
                               const double *p, batten_hull **out, batten_vary_outcome *outcome);
 
+/* A map of space: where a place of the half hull goes. */
+typedef struct variation_map {
+	void (*move)(const void *user, const double place_m[3], double moved_m[3]);
+	const void *user;
+} variation_map;
+
+/* A hull whose points are moved in space, on a table again (deform.c). LBP, draft and baseline stay.
+ * Errors: INPUT (the map folds, line ends off the grid that it takes off their lines), MEMORY. */
+batten_status variation_deform(batten_context *context, const batten_hull *parent,
+                               const variation_map *map, batten_hull **out,
+                               batten_vary_outcome *outcome);
+
 /* The methods that need no sections. */
+batten_status variation_nonlinear(batten_context *context, const batten_hull *parent,
+                                  const batten_vary_options *options, batten_hull **out,
+                                  batten_vary_outcome *outcome);
+batten_status variation_free_form(batten_context *context, const batten_hull *parent,
+                                  const batten_vary_options *options, batten_hull **out,
+                                  batten_vary_outcome *outcome);
 batten_status variation_average(batten_context *context, const batten_hull *parent,
                                 const batten_vary_options *options, batten_hull **out,
                                 batten_vary_outcome *outcome);

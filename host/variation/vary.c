@@ -43,7 +43,8 @@ void batten_vary_options_default(batten_vary_options *options)
 		                              .lcb_pct_lbp_fwd = NAN,
 		                              .cp = NAN,
 		                              .middle_aft_m = NAN,
-		                              .middle_fore_m = NAN };
+		                              .middle_fore_m = NAN,
+		                              .preset = BATTEN_VARY_PRESET_COUNT };
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -76,6 +77,7 @@ static batten_status check_numbers(batten_context *context, const batten_vary_op
 		{ "cp", options->cp, 1e-3, 1, true },
 		{ "middle_aft", options->middle_aft_m, 0, HULL_LARGEST_M, true },
 		{ "middle_fore", options->middle_fore_m, 0, HULL_LARGEST_M, true },
+		{ "amount", options->amount, -10, 10, false },
 	};
 	for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
 		const struct number *number = &numbers[i];
@@ -127,6 +129,32 @@ static batten_status check_stretch(batten_context *context, const batten_vary_op
 	return BATTEN_OK;
 }
 
+static batten_status check_factor(batten_context *context, const batten_vary_factor *factor,
+                                  size_t number)
+{
+	bool good = factor->guard_first <= BATTEN_VARY_GUARD_MOST &&
+	            factor->guard_last <= BATTEN_VARY_GUARD_MOST;
+	for (size_t k = 0; k < BATTEN_VARY_COEFFICIENTS; k++)
+		good = good && fabs(factor->coefficients[k]) <= 1e6;
+	return good ? BATTEN_OK
+	            : batten_fail(context, BATTEN_USAGE,
+	                          "nonlinear: function F%zu has a coefficient beyond 1e6 or a guard "
+	                          "above %d",
+	                          number, BATTEN_VARY_GUARD_MOST);
+}
+
+static batten_status check_nonlinear(batten_context *context, const batten_vary_options *options)
+{
+	if (!options->factors &&
+	    ((int)options->preset < 0 || options->preset >= BATTEN_VARY_PRESET_COUNT))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "nonlinear: neither a preset nor factors, one of them is expected");
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; options->factors && i < 9 && status == BATTEN_OK; i++)
+		status = check_factor(context, &options->factors->moves[i / 3][i % 3], i + 1);
+	return status;
+}
+
 static batten_status check_options(batten_context *context, const batten_vary_options *options)
 {
 	if (options->struct_size != sizeof *options)
@@ -138,9 +166,20 @@ static batten_status check_options(batten_context *context, const batten_vary_op
 	const batten_status status = check_numbers(context, options);
 	if (status != BATTEN_OK)
 		return status;
-	if (options->method == BATTEN_VARY_AVERAGE)
+	switch (options->method) {
+	case BATTEN_VARY_AVERAGE:
 		return check_average(context, options);
-	return options->method == BATTEN_VARY_STRETCH ? check_stretch(context, options) : BATTEN_OK;
+	case BATTEN_VARY_STRETCH:
+		return check_stretch(context, options);
+	case BATTEN_VARY_NONLINEAR:
+		return check_nonlinear(context, options);
+	case BATTEN_VARY_FREE_FORM:
+		return options->lattice
+		           ? BATTEN_OK
+		           : batten_fail(context, BATTEN_USAGE, "free-form: a lattice is expected");
+	default:
+		return BATTEN_OK;
+	}
 }
 
 /* Only of numbers the method takes. */

@@ -10,7 +10,7 @@ expect 0 vary --help
 prints '^usage: batten vary'
 prints '^example:'
 for option in method out dcp dcb dlcb dcwp dlcf dp-fore dp-aft lcb-used lcf-used with weight lbd \
-	targets middle move first-pass thesis threads max-memory json quiet; do
+	targets middle move preset amount lattice solve by first-pass thesis threads max-memory json quiet; do
 	prints "^  --$option"
 done
 expect 0 --help
@@ -52,6 +52,24 @@ expect 0 vary "$hull" --method three-body --middle 12.192,18.288 --targets volum
 	--out three.csv
 expect 0 measure three.csv --json
 holds 'volume of three bodies' 'v > 259.999999 && v < 260.000001' v="$(member "$out" volume_m3)"
+for preset in bilge-radius rise-of-floor u-ness v-ness flare; do
+	expect 0 vary "$hull" --method nonlinear --preset $preset --amount 0.05 --out $preset.csv
+done
+expect 0 vary "$hull" --method free-form --lattice "$DATA/lattices/trawler_shoulder.json" --out ffd.csv
+expect_json "$DATA/lattices/trawler_shoulder.json"
+holds 'fuller by the lattice' 'b > a + 0.5' a="$(expect 0 measure "$hull" --json; member "$out" volume_m3)" \
+	b="$(expect 0 measure ffd.csv --json; member "$out" volume_m3)"
+
+# Form-parameter design: targets met by parameters of two methods.
+expect 0 vary "$hull" --solve volume_m3=255,lcb_pct_lbp_fwd=-1,cb=0.53 \
+	--by lackenby.dcp,lackenby.dlcb=-5:5,affine.y --out solved.csv
+prints '^BSRA trawler, solve: '
+prints '^parameters: lackenby.dcp '
+expect 0 measure solved.csv --json
+cp "$out" measures.json
+holds 'volume solved' 'v > 254.99999 && v < 255.00001' v="$(member measures.json volume_m3)"
+holds 'LCB solved' 'v > -1.00001 && v < -0.99999' v="$(member measures.json lcb_pct_lbp_fwd)"
+holds 'C_B solved' 'v > 0.52999 && v < 0.53001' v="$(member measures.json cb)"
 
 # A fraction where percent is meant is a warning, silent with --quiet.
 expect 0 vary "$hull" --method swing --dlcb 0.02 --out small.csv
@@ -88,6 +106,25 @@ for list in 0 0:0 0:0,1 0:0,1:1, 0-0,1:1; do
 	refuses 2 "--move: found '$list'" "$hull" --method stretch --move "$list" --out x.csv
 done
 refuses 2 'would fold' "$hull" --method stretch --move 0:0,0.5:1.1,1:1 --out x.csv
+refuses 2 "--preset: found 'u'" "$hull" --method nonlinear --preset u --amount 1 --out x.csv
+refuses 2 "--amount was expected" "$hull" --method nonlinear --preset u-ness --out x.csv
+refuses 2 "--lattice FILE was expected" "$hull" --method free-form --out x.csv
+refuses 2 '--lattice: method swing takes no such option' "$hull" --method swing --lattice x --out x.csv
+refuses 2 'were expected, without --method' "$hull" --method swing --solve cb=1 --by affine.y --out x.csv
+refuses 2 'were expected, without --method' "$hull" --solve cb=1 --out x.csv
+refuses 2 '--out FILE.csv was expected' "$hull" --solve cb=1 --by affine.y
+for list in '' cb cb= cb=1, cb=x; do
+	refuses 2 "--solve: found '$list'" "$hull" --solve "$list" --by affine.y --out x.csv
+done
+for list in '' affine.x,affine.y affine.x=1 affine.x=1:; do
+	refuses 2 "--by: found '$list'" "$hull" --solve cb=1 --by "$list" --out x.csv
+done
+refuses 2 "parameter 'affine.w'" "$hull" --solve cb=1 --by affine.w --out x.csv
+refuses 2 "target 'cd'" "$hull" --solve cd=1 --by affine.y --out x.csv
+refuses 3 'no solution found within the ranges; nearest comes' "$hull" --solve cb=0.95 \
+	--by nonlinear.u-ness --quiet --out x.csv
+refuses 3 'would fold the hull' "$hull" --method nonlinear --preset u-ness --amount 0.2 --out x.csv
+refuses 6 'none.json' "$hull" --method free-form --lattice none.json --out x.csv
 refuses 3 'out of reach.*cp 0.4188 to 0.7575' "$hull" --method lackenby --dcp 50 --quiet --out x.csv
 refuses 3 'told where its middle body is' "$hull" --method three-body --out x.csv
 refuses 6 'none.csv' none.csv --method swing --out x.csv

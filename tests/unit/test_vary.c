@@ -48,8 +48,11 @@ static void test_identity(void **state)
 	for (size_t h = 0; h < HULLS; h++) {
 		batten_hull *hull = read_hull(*state, hulls[h]);
 		const batten_hull *const other = hull;
+		batten_lattice *lattice = affine_lattice(*state, hull, (const double[3]){ 0, 0, 0 });
 		for (int m = 0; m < BATTEN_VARY_METHOD_COUNT; m++) {
-			const batten_vary_options options = identity((batten_vary_method)m, &other, hull);
+			batten_vary_options options = identity((batten_vary_method)m, &other, hull);
+			options.preset = BATTEN_VARY_RISE_OF_FLOOR;
+			options.lattice = lattice;
 			if (m == BATTEN_VARY_MOOR && strcmp(hulls[h], "highspeed_craft") == 0)
 				continue; /* refused: its waterlines end off the grid (test_refusals) */
 			batten_vary_outcome outcome;
@@ -58,6 +61,7 @@ static void test_identity(void **state)
 			assert_string_equal(outcome.warning, "");
 			batten_hull_destroy(variant);
 		}
+		batten_lattice_destroy(lattice);
 		batten_hull_destroy(hull);
 	}
 }

@@ -215,6 +215,7 @@ static void test_memory(void **state)
 	batten_hull *hull = read_hull(context, "bsra_trawler");
 	const batten_hull *const others[] = { hull };
 	const double parts[] = { 0, 1 };
+	batten_lattice *lattice = affine_lattice(context, hull, (const double[3]){ 0, 0, 0.1 });
 	for (int m = 0; m <= BATTEN_VARY_METHOD_COUNT; m++) {
 		/* the last: the thesis's procedure */
 		const bool thesis = m == BATTEN_VARY_METHOD_COUNT;
@@ -230,9 +231,13 @@ static void test_memory(void **state)
 		options.from_part = options.to_part = parts;
 		options.middle_aft_m = 12;
 		options.middle_fore_m = 18;
+		options.preset = BATTEN_VARY_RISE_OF_FLOOR;
+		options.amount = 0.1;
+		options.lattice = lattice;
 		struct variation variation = { hull, options };
 		assert_true(failing_heap_each(&heap, context, vary_once, &variation) > 20);
 	}
+	batten_lattice_destroy(lattice);
 	batten_hull_destroy(hull);
 	failing_heap_close(&heap, context);
 }

@@ -80,6 +80,38 @@ static inline void assert_near(double value, double expected, double tolerance, 
 		fail_msg("%s: found %.17g, expected %.17g within %g", what, value, expected, tolerance);
 }
 
+/* A lattice about the whole of a hull whose poles, at their Greville places, move by an affine map:
+ * x += by[0] x, y += by[1] y, z += by[2] z. */
+static inline batten_lattice *affine_lattice(batten_context *context, const batten_hull *hull,
+                                             const double by[3])
+{
+	enum { X = 5, Y = 3, Z = 4 };
+	static double shift[Z][Y][X][3];
+	static const double at_x[X] = { 0, 1.0 / 6, 0.5, 5.0 / 6, 1 }, at_y[Y] = { 0, 0.5, 1 };
+	static const double at_z[Z] = { 0, 1.0 / 3, 2.0 / 3, 1 };
+	const size_t stations = batten_hull_station_count(hull);
+	const size_t waterlines = batten_hull_waterline_count(hull);
+	batten_lattice_net net = {
+		.from_m = { batten_hull_x_m(hull)[0] - 1, 0, batten_hull_z_m(hull)[0] - 0.5 },
+		.to_m = { batten_hull_x_m(hull)[stations - 1] + 2, 1.5 * batten_hull_half_beam_m(hull),
+		          batten_hull_z_m(hull)[waterlines - 1] + 1 },
+		.count = { X, Y, Z },
+		.order = { 4, 2, 4 },
+		.shift_m = &shift[0][0][0][0],
+	};
+	for (size_t k = 0; k < Z; k++)
+		for (size_t j = 0; j < Y; j++)
+			for (size_t i = 0; i < X; i++) {
+				const double part[3] = { at_x[i], at_y[j], at_z[k] };
+				for (size_t c = 0; c < 3; c++)
+					shift[k][j][i][c] = by[c] *
+					                    (net.from_m[c] + part[c] * (net.to_m[c] - net.from_m[c]));
+			}
+	batten_lattice *lattice = NULL;
+	assert_int_equal(batten_lattice_create(context, &net, &lattice), BATTEN_OK);
+	return lattice;
+}
+
 /* Half-breadth at a place of the table, 0 outside. */
 static inline double offset_at(const batten_hull *hull, double x_m, double z_m)
 {
