@@ -119,7 +119,7 @@ static batten_status read_parameter(struct problem *problem,
 }
 
 /* Parameters of one method (and preset) are one stage, where the first of them stands. */
-static batten_status find_stage(struct problem *problem, size_t i)
+static batten_status find_stage(struct problem *problem, const char *name, size_t i)
 {
 	const struct known *last = problem->parameters[i];
 	problem->stage[i] = problem->stage_count;
@@ -127,7 +127,7 @@ static batten_status find_stage(struct problem *problem, size_t i)
 		const struct known *other = problem->parameters[k];
 		if (other == last)
 			return batten_fail(problem->context, BATTEN_USAGE,
-			                   "parameter %s is given twice, once was expected", other->name);
+			                   "parameter %s is given twice, once was expected", name);
 		if (other->method == last->method && preset_of(other) == preset_of(last))
 			problem->stage[i] = problem->stage[k];
 	}
@@ -313,12 +313,12 @@ batten_status batten_hull_solve(batten_context *context, const batten_hull *pare
 		status = batten_fail(context, BATTEN_USAGE,
 		                     "solve for %zu targets, expected 1 to %d and as many parameters",
 		                     count, MOST);
-	for (size_t i = 0; i < count && status == BATTEN_OK; i++) {
+	for (size_t i = 0; status == BATTEN_OK && targets && i < count; i++) {
 		status = read_target(&problem, targets[i], i);
 		if (status == BATTEN_OK)
 			status = read_parameter(&problem, &parameters[i], i);
 		if (status == BATTEN_OK)
-			status = find_stage(&problem, i);
+			status = find_stage(&problem, parameters[i].name, i);
 	}
 	if (status == BATTEN_OK)
 		status = solve(&problem, out);
