@@ -1,6 +1,7 @@
 /* A surface through the offsets of a hull by least squares: the parts of batten_hull_fit().
  *
- * fit_outline  where keel, stem, stern and deck run in the table
+ * fit_ends     where the lines of the table end
+ * fit_outline  where keel, stem, stern and deck run in it
  * fit_points   the points with their parameters, from the outline, and the knots
  * fit_knuckles parameters and knots where the hull has knuckle lines
  * fit_net      the linear system: which pole is which unknown, normal equations, solution

@@ -1,21 +1,13 @@
 /* Where a hull's surface ends: keel, stern, stem and deck, found in the ends of its lines.  * From
  * the lowest waterline up, the ends of the waterlines belong to the keel as long as they go out by
  * more than they rise; from the corner where they stop doing so they are stern or stem. */
-#include "geometry/fit.h"
+#include "geometry/fit_ends.h"
 
 #include <math.h>
 #include <string.h>
 
 /* Rise of a keel over its run, at most. */
 static const double steepest_keel = 1.0 / 3.0;
-
-/* First and last point of every waterline that has any. */
-struct ends {
-	size_t count;
-	double *z, *x[2], *y[2]; /* [0] aft, [1] forward */
-};
-
-enum { AFT, FORWARD };
 
 double fit_line_value(const struct fit_line *line, double at)
 {
@@ -71,88 +63,45 @@ static void line_insert(struct fit_line *line, double at, double value)
 	line->count++;
 }
 
-static void ends_release(batten_context *context, struct ends *ends)
+/* Whether a waterline ends at the deck, not at stern or stem: the hull goes on, but lower. */
+static bool ends_at_deck(const batten_hull *hull, const struct fit_sections *sections,
+                         const struct fit_ends *ends, size_t i, int side)
 {
-	batten_release(context, ends->z);
-	for (int side = AFT; side <= FORWARD; side++) {
-		batten_release(context, ends->x[side]);
-		batten_release(context, ends->y[side]);
+	for (size_t s = 0; s < hull->station_count; s++) {
+		const bool beyond = side == FIT_AFT ? hull->x_m[s] < ends->x[side][i]
+		                                    : hull->x_m[s] > ends->x[side][i];
+		if (beyond && sections->high[s] < ends->z[i])
+			return true;
 	}
-}
-
-static batten_status ends_create(const batten_hull *hull, struct ends *ends)
-{
-	batten_context *context = hull->context;
-	memset(ends, 0, sizeof *ends);
-	double **arrays[] = { &ends->z, &ends->x[AFT], &ends->x[FORWARD], &ends->y[AFT],
-		                  &ends->y[FORWARD] };
-	for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
-		*arrays[i] = batten_allocate(context, hull->waterline_count, sizeof **arrays[i]);
-		if (!*arrays[i])
-			return BATTEN_MEMORY;
-	}
-	for (size_t w = 0; w < hull->waterline_count; w++) {
-		hull_line line;
-		const batten_status status = hull_line_collect(hull, true, w, true, &line);
-		if (status != BATTEN_OK)
-			return status;
-		if (line.count > 0) {
-			const size_t n = ends->count++;
-			ends->z[n] = hull->z_m[w];
-			ends->x[AFT][n] = line.along_m[0];
-			ends->y[AFT][n] = line.value_m[0];
-			ends->x[FORWARD][n] = line.along_m[line.count - 1];
-			ends->y[FORWARD][n] = line.value_m[line.count - 1];
-		}
-		hull_line_release(hull, &line);
-	}
-	return BATTEN_OK;
+	return false;
 }
 
 /* Number of the end where the keel meets stern or stem. Profile points on a grid go up in steps: an
  * end that is not steep above the last one of the keel is on it too. */
-static size_t find_corner(const struct ends *ends, int side)
+static size_t find_corner(const struct fit_ends *ends, int side)
 {
 	const double *x = ends->x[side];
 	size_t corner = 0;
 	for (size_t i = 1; i < ends->count; i++) {
-		const double run = side == AFT ? x[corner] - x[i] : x[i] - x[corner];
+		const double run = side == FIT_AFT ? x[corner] - x[i] : x[i] - x[corner];
 		if (run > 0.0 && ends->z[i] - ends->z[corner] < steepest_keel * run)
 			corner = i;
 	}
 	return corner;
 }
 
-/* Lowest and highest node of a section that lies on the hull, '?' included; false without any. */
-static bool section_range(const batten_hull *hull, size_t station, size_t *lowest, size_t *highest)
-{
-	bool any = false;
-	for (size_t w = 0; w < hull->waterline_count; w++)
-		if (hull->nodes[w * hull->station_count + station] != BATTEN_NODE_OUTSIDE) {
-			if (!any)
-				*lowest = w;
-			*highest = w;
-			any = true;
-		}
-	return any;
-}
-
 /* Places of the profile that the table gives: ends of waterlines on the keel, feet of sections,
  * keel points. Only those with y = 0. */
-static void collect_keel(const batten_hull *hull, const struct ends *ends, const size_t corner[2],
-                         struct fit_line *keel)
+static void collect_keel(const batten_hull *hull, const struct fit_sections *sections,
+                         const struct fit_ends *ends, const size_t corner[2], struct fit_line *keel)
 {
-	for (int side = AFT; side <= FORWARD; side++)
+	for (int side = FIT_AFT; side <= FIT_FORWARD; side++)
 		for (size_t i = 0; i <= corner[side] && i < ends->count; i++)
 			if (ends->y[side][i] == 0.0)
 				line_insert(keel, ends->x[side][i], ends->z[i]);
-	for (size_t s = 0; s < hull->station_count; s++) {
-		size_t lowest = 0;
-		size_t highest = 0;
-		if (section_range(hull, s, &lowest, &highest) &&
-		    hull->y_m[lowest * hull->station_count + s] == 0.0)
-			line_insert(keel, hull->x_m[s], hull->z_m[lowest]);
-	}
+	for (size_t s = 0; s < hull->station_count; s++)
+		if (sections->low_y[s] == 0.0)
+			line_insert(keel, hull->x_m[s], sections->low[s]);
 	for (size_t i = 0; i < hull->profile_count; i++)
 		if (hull->profile[i].kind == HULL_PROFILE_KEEL && hull->profile[i].y_m == 0.0)
 			line_insert(keel, hull->profile[i].x_m, hull->profile[i].z_m);
@@ -175,21 +124,20 @@ static double keel_at(const struct fit_line *keel, double x)
 
 /* Foot and top of every section. A section that begins above the keel with y > 0 is led down to it;
  * beyond the corners aft and forward its foot is on the stern or the stem. */
-static void follow_sections(const batten_hull *hull, const struct fit_line *keel, double aft,
-                            double forward, struct fit_outline *out)
+static void follow_sections(const batten_hull *hull, const struct fit_sections *sections,
+                            const struct fit_line *keel, double aft, double forward,
+                            struct fit_outline *out)
 {
 	for (size_t s = 0; s < hull->station_count; s++) {
-		size_t lowest = 0;
-		size_t highest = 0;
-		if (!section_range(hull, s, &lowest, &highest))
+		if (isnan(sections->low[s]))
 			continue;
 		const double x = hull->x_m[s];
-		line_insert(&out->high, x, hull->z_m[highest]);
+		line_insert(&out->high, x, sections->high[s]);
 		if (x < aft || x > forward)
 			continue;
-		double foot = hull->z_m[lowest];
+		double foot = sections->low[s];
 		const double under = keel_at(keel, x);
-		if (hull->y_m[lowest * hull->station_count + s] > 0.0 && under < foot) {
+		if (sections->low_y[s] > 0.0 && under < foot) {
 			foot = under;
 			out->closed_x[out->closed_count] = x;
 			out->closed_z[out->closed_count++] = foot;
@@ -206,18 +154,21 @@ static void follow_sections(const batten_hull *hull, const struct fit_line *keel
 	}
 }
 
-static batten_status build(const batten_hull *hull, const struct ends *ends, struct fit_line *keel,
+static batten_status build(const batten_hull *hull, const struct fit_sections *sections,
+                           const struct fit_ends *ends, struct fit_line *keel,
                            struct fit_outline *out)
 {
-	const size_t corner[2] = { find_corner(ends, AFT), find_corner(ends, FORWARD) };
+	const size_t corner[2] = { find_corner(ends, FIT_AFT), find_corner(ends, FIT_FORWARD) };
 	if (ends->count == 0)
 		return batten_fail(hull->context, BATTEN_INPUT, "%s: no point is on the hull", hull->name);
-	collect_keel(hull, ends, corner, keel);
-	follow_sections(hull, keel, ends->x[AFT][corner[AFT]], ends->x[FORWARD][corner[FORWARD]], out);
-	for (size_t i = corner[AFT]; i < ends->count; i++)
-		line_insert(&out->stern, ends->z[i], ends->x[AFT][i]);
-	for (size_t i = corner[FORWARD]; i < ends->count; i++)
-		line_insert(&out->stem, ends->z[i], ends->x[FORWARD][i]);
+	collect_keel(hull, sections, ends, corner, keel);
+	follow_sections(hull, sections, keel, ends->x[FIT_AFT][corner[FIT_AFT]],
+	                ends->x[FIT_FORWARD][corner[FIT_FORWARD]], out);
+	struct fit_line *lines[2] = { [FIT_AFT] = &out->stern, [FIT_FORWARD] = &out->stem };
+	for (int side = FIT_AFT; side <= FIT_FORWARD; side++)
+		for (size_t i = corner[side]; i < ends->count; i++)
+			if (i == corner[side] || !ends_at_deck(hull, sections, ends, i, side))
+				line_insert(lines[side], ends->z[i], ends->x[side][i]);
 	if (out->low.count < 2 || out->stern.count == 0 || out->high.count < 2)
 		return batten_fail(hull->context, BATTEN_INPUT,
 		                   "%s: a surface needs points at two stations or more", hull->name);
@@ -229,13 +180,19 @@ batten_status fit_outline_create(const batten_hull *hull, struct fit_outline *ou
 	batten_context *context = hull->context;
 	memset(out, 0, sizeof *out);
 	out->context = context;
-	const size_t most = 2 * hull->waterline_count + hull->station_count + hull->profile_count;
-	struct ends ends;
+	const size_t most = 2 * hull->waterline_count + 3 * hull->station_count +
+	                    3 * hull->profile_count;
+	struct fit_ends ends = { 0 };
+	struct fit_sections sections = { 0 };
 	struct fit_line keel = { 0 };
-	batten_status status = ends_create(hull, &ends);
+	batten_status status = fit_ends_create(hull, &ends);
+	if (status == BATTEN_OK)
+		status = fit_sections_create(hull, &ends, &sections);
+	if (status == BATTEN_OK)
+		fit_ends_extend(hull, &sections, &ends);
 	struct fit_line *lines[] = { &keel, &out->low, &out->high, &out->stern, &out->stem };
 	for (size_t i = 0; status == BATTEN_OK && i < sizeof lines / sizeof lines[0]; i++)
-		status = line_allocate(context, most + hull->station_count, lines[i]);
+		status = line_allocate(context, most, lines[i]);
 	if (status == BATTEN_OK) {
 		out->closed_x = batten_allocate(context, hull->station_count, sizeof *out->closed_x);
 		out->closed_z = batten_allocate(context, hull->station_count, sizeof *out->closed_z);
@@ -243,8 +200,9 @@ batten_status fit_outline_create(const batten_hull *hull, struct fit_outline *ou
 			status = BATTEN_MEMORY;
 	}
 	if (status == BATTEN_OK)
-		status = build(hull, &ends, &keel, out);
-	ends_release(context, &ends);
+		status = build(hull, &sections, &ends, &keel, out);
+	fit_sections_release(context, &sections);
+	fit_ends_release(context, &ends);
 	line_release(context, &keel);
 	if (status != BATTEN_OK)
 		fit_outline_destroy(out);
