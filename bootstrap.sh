@@ -48,6 +48,8 @@ libjansson-dev
 libcairo2-dev
 libpng-dev
 libxxhash-dev
+libsqlite3-dev
+librandom123-dev
 opencl-c-headers|ocl-icd-opencl-dev
 libvulkan-dev
 glslang-tools
@@ -55,7 +57,7 @@ g++ libocct-data-exchange-dev
 "
 # gcc libc6-dev: the compiler, and the C library's headers. cmake ninja-build pkg-config: the build.
 # jansson: JSON reports. cairo: line drawings, text on pictures. png: pictures. xxhash: keys of
-# compiled kernels. The headers of OpenCL and Vulkan: both libraries are opened at run time.
+# compiled kernels. sqlite3: databases of sweeps. random123: random designs, by counter. The headers of OpenCL and Vulkan: both libraries are opened at run time.
 # glslang-tools: shaders to SPIR-V. g++ libocct-data-exchange-dev: IGES and STEP; batten builds without
 # them, too.
 
@@ -73,17 +75,17 @@ fonts-dejavu-core
 test_packages="
 libcmocka-dev
 libnlopt-dev
-librandom123-dev
 clang libclang-rt-dev|libclang-rt-14-dev
 clang-format clang-tidy
 vulkan-validationlayers
 libxml2-utils librsvg2-bin
 gmsh
+sqlite3
 "
-# cmocka: unit tests. nlopt: the optimum that a search is compared with. random123: the noise of a
-# shipped hull, made again. clang: the second compiler, the kernels' syntax, and with libclang-rt
+# cmocka: unit tests. nlopt: the optimum that a search is compared with. clang: the second compiler, the kernels' syntax, and with libclang-rt
 # AddressSanitizer. clang-format clang-tidy: layout and lint. vulkan-validationlayers: misuse of Vulkan.
 # xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and STEP files, as an independent program.
+# sqlite3: reads the databases of sweeps.
 
 is_installed()
 {

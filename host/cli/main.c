@@ -15,6 +15,7 @@ static const subcommand subcommands[] = {
 	{ "measure", cli_measure, "fairness numbers, form coefficients and hydrostatics of a hull" },
 	{ "curve", cli_curve, "represent one line and measure how fair it is" },
 	{ "vary", cli_vary, "make a variant of a parent hull" },
+	{ "sweep", cli_sweep, "run a plan of many designs into a database" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "convert", cli_convert, "surfaces from one of JSON, IGES and STEP to another" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
@@ -34,7 +35,7 @@ static void print_help(FILE *stream)
 		"  batten fair data/hulls/npl_parent.csv --out demo\n"
 		"\nexit codes: 0 done; 1 done, but not all converged; 2 usage; 3 input invalid;\n"
 		"4 device absent or lost; 5 kernel build or self-test failed; 6 input/output error or\n"
-		"a package missing; 70 internal error or out of memory\n",
+		"a package missing; 70 internal error or out of memory; 75 interrupted, can go on\n",
 		stream);
 }
 
@@ -73,8 +74,8 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, curve, vary, surface, convert, "
-		"devices, selftest, bench\n",
+		"batten: found '%s', a command was expected: fair, measure, curve, vary, sweep, surface, "
+		"convert, devices, selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

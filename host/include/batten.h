@@ -1517,6 +1517,60 @@ typedef struct batten_fairing_net {
 BATTEN_API batten_fairing_net batten_fairing_describe_net(const batten_fairing *fairing);
 
 /* ------------------------------------------------------------------------------------------------
+ * Sweeps: a plan of many designs, run into a database
+ * --------------------------------------------------------------------------------------------- */
+
+/* Where SQLite keeps what is not yet in the database file. */
+typedef enum batten_sweep_journal {
+	BATTEN_SWEEP_JOURNAL_AUTO,     /* WAL, but a rollback journal on network file systems */
+	BATTEN_SWEEP_JOURNAL_WAL,      /* a write-ahead log beside it: fewer waits for the disk */
+	BATTEN_SWEEP_JOURNAL_ROLLBACK, /* a file that is emptied after every block */
+} batten_sweep_journal;
+
+/* How far a sweep is. Counts are of the shard's designs that are stored, earlier runs included. */
+typedef struct batten_sweep_progress {
+	uint64_t first, end; /* the shard's designs have the numbers first to end - 1 */
+	uint64_t stored, not_converged, rejected, failed;
+	uint64_t stored_before;                    /* by earlier runs */
+	double seconds;                            /* wall time of this run */
+	double vary_s, fair_s, measure_s, store_s; /* of it; storing goes on beside the others */
+	char device[128];                          /* what searched, "" before the first block */
+} batten_sweep_progress;
+
+typedef struct batten_sweep_options {
+	size_t struct_size;
+	int device; /* as in batten_search_options; AUTO */
+	/* Part number `shard` of shard_count, from 1: 1 of 1. A design is the same in any part. */
+	uint64_t shard, shard_count;
+	bool resume; /* go on with a database that is there; without one, begin */
+	bool large;  /* more than BATTEN_SWEEP_LARGE designs are meant */
+	batten_sweep_journal journal;
+	size_t block; /* designs a stage works on and a transaction stores, 1..65536; 0 chooses */
+	/* Called between blocks from the thread of the call; either may be NULL. stop returning true
+	 * ends the sweep when what was computed is stored. */
+	void (*progress)(const batten_sweep_progress *progress, void *user);
+	bool (*stop)(void *user);
+	void *user;
+} batten_sweep_options;
+BATTEN_API void batten_sweep_options_default(batten_sweep_options *options);
+
+#define BATTEN_SWEEP_LARGE 10000000u
+
+/* Runs the plan of a JSON file (data/schema/plan.schema.json) into an SQLite database
+ * (host/sweep/README.md): vary, fair, measure, store, in blocks. The plan is checked before anything is
+ * made. Design i depends on the plan, its seed and i only: a database that was cut short at any moment
+ * and resumed holds the same rows as one that was not, and so do the shards of a sweep together. At
+ * most two blocks are computed again. out may be NULL.
+ * Returns INCOMPLETE when a design failed or did not converge, INTERRUPTED when stop said so. Errors:
+ * USAGE (options, a database that is there, more than BATTEN_SWEEP_LARGE designs without `large`), INPUT
+ * (the plan, its files; resume: a database of another plan, shard, schema or version), IO, DEVICE,
+ * KERNEL, MEMORY. */
+BATTEN_API batten_status batten_sweep_run(batten_context *context, const char *plan_path,
+                                          const char *database_path,
+                                          const batten_sweep_options *options,
+                                          batten_sweep_progress *out);
+
+/* ------------------------------------------------------------------------------------------------
  * Pictures
  * --------------------------------------------------------------------------------------------- */
 

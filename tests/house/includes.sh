@@ -41,10 +41,11 @@ vulkan/   picture test
 cairo     picture
 png.h     picture test
 jansson.h cli sweep io test
-xxhash.h  device
+xxhash.h  device sweep
+sqlite3.h sweep test
 cmocka.h  test support
 nlopt.h   test oracle
-Random123 data test
+Random123 sweep data test
 '
 
 find host kernels tests data bench \( -name '*.c' -o -name '*.h' -o -name '*.cl' -o -name '*.cpp' \) -type f 2>/dev/null |

@@ -1,0 +1,26 @@
+/* The stages of a sweep. Each takes a block that the one before it has left, and is the one place that
+ * knows how its work is done; what fails for one design stays with that design. */
+#ifndef BATTEN_SWEEP_STAGES_H
+#define BATTEN_SWEEP_STAGES_H
+
+#include "sweep/block.h"
+
+/* What runs the stages. */
+typedef struct sweep_machine {
+	batten_context *context;
+	sweep_crew crew;
+	int device;     /* as in batten_search_options */
+	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
+} sweep_machine;
+
+/* Varies the parent: designs get their hull, or VARY_FAILED. Errors: MEMORY. */
+batten_status sweep_stage_vary(sweep_machine *machine, sweep_block *block);
+
+/* Fairs every variant by its offsets: designs get their faired hull and search, or FAIR_FAILED or
+ * NOT_CONVERGED. Errors: DEVICE, KERNEL, MEMORY. */
+batten_status sweep_stage_fair(sweep_machine *machine, sweep_block *block);
+
+/* Measures what came out and judges it: MEASURE_FAILED, REJECTED. Errors: MEMORY. */
+batten_status sweep_stage_measure(sweep_machine *machine, sweep_block *block);
+
+#endif
