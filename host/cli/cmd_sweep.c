@@ -108,16 +108,17 @@ static void tell(const batten_sweep_progress *progress, void *user)
 
 static batten_status read_shard(struct request *request)
 {
-	unsigned long long index = 0;
-	unsigned long long count = 0;
-	char rest = 0;
-	if (!request->shard)
+	const char *text = request->shard;
+	if (!text)
 		return BATTEN_OK;
-	if (strspn(request->shard, "0123456789/") != strlen(request->shard) ||
-	    strlen(request->shard) > 16 ||
-	    sscanf(request->shard, "%llu/%llu%c", &index, &count, &rest) != 2 || index < 1 ||
-	    index > count)
-		return cli_usage("sweep", "--shard: found '%s', expected I/N, as 2/8", request->shard);
+	char *slash = NULL;
+	char *end = NULL;
+	/* At most 16 digits cannot overflow. */
+	const bool plain = strspn(text, "0123456789/") == strlen(text) && strlen(text) <= 16;
+	const unsigned long long index = strtoull(text, &slash, 10);
+	const unsigned long long count = *slash == '/' ? strtoull(slash + 1, &end, 10) : 0;
+	if (!plain || !end || *end != '\0' || index < 1 || index > count)
+		return cli_usage("sweep", "--shard: found '%s', expected I/N, as 2/8", text);
 	request->options.shard = index;
 	request->options.shard_count = count;
 	return BATTEN_OK;
