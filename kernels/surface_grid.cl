@@ -16,6 +16,7 @@
 #include "shared/dialect.h"
 #include "shared/surface_layout.h"
 #include "shared/surface_variation.h"
+#include "shared/turn.h"
 
 #if !defined(SURFACE_OUTPUT)
 #define SURFACE_OUTPUT SURFACE_OUTPUT_EVERYTHING
@@ -31,11 +32,6 @@
 	(SURFACE_OUTPUT == SURFACE_OUTPUT_POSITION    ? SURFACE_POSITION_COUNT                         \
 	 : SURFACE_OUTPUT == SURFACE_OUTPUT_CURVATURE ? SURFACE_CURVATURE_COUNT                        \
 	                                              : SURFACE_EVERYTHING_COUNT)
-
-/* The loops over a basis are short, fixed and worth unrolling; the others are not. PoCL needs to be
- * told both. */
-#define ROLLED _Pragma("unroll 1")
-#define UNROLLED _Pragma("unroll")
 
 /* One column of the net taken together along v: the point and its derivatives. */
 static inline void collapse_column(global const real *poles, global const scalar *table,
@@ -175,49 +171,6 @@ typedef NUMBER_NAME number;
 typedef BATTEN_PASTE(NUMBER_NAME, BATTEN_LANES) numbers;
 #define CONVERT(a) BATTEN_PASTE(convert_, BATTEN_PASTE(NUMBER_NAME, BATTEN_LANES))(a)
 #define STORE(a, to) BATTEN_PASTE(vstore, BATTEN_LANES)(a, 0, to)
-#endif
-
-/* The first halves of two vectors taken in turns, and the second halves. */
-#if BATTEN_LANES == 2
-#define TURNS_LOW(a, b) (real)(a.s0, b.s0)
-#define TURNS_HIGH(a, b) (real)(a.s1, b.s1)
-#elif BATTEN_LANES == 4
-#define TURNS_LOW(a, b) (real)(a.s0, b.s0, a.s1, b.s1)
-#define TURNS_HIGH(a, b) (real)(a.s2, b.s2, a.s3, b.s3)
-#elif BATTEN_LANES == 8
-#define TURNS_LOW(a, b) (real)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3)
-#define TURNS_HIGH(a, b) (real)(a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7, b.s7)
-#elif BATTEN_LANES == 16
-#define TURNS_LOW(a, b)                                                                            \
-	(real)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3, a.s4, b.s4, a.s5, b.s5, a.s6, b.s6,     \
-	       a.s7, b.s7)
-#define TURNS_HIGH(a, b)                                                                           \
-	(real)(a.s8, b.s8, a.s9, b.s9, a.sa, b.sa, a.sb, b.sb, a.sc, b.sc, a.sd, b.sd, a.se, b.se,     \
-	       a.sf, b.sf)
-#endif
-
-/* Rows become columns: to take turns moves the first bit of a number's place (row, lane) to its end;
- * done as often as a row has bits, rows and lanes have changed places. */
-#if BATTEN_LANES == 1
-#define turn(square)
-#else
-static inline void turn(real square[BATTEN_LANES])
-{
-	UNROLLED
-	for (int done = 1; done < BATTEN_LANES; done *= 2) {
-		real next[BATTEN_LANES];
-		UNROLLED
-		for (int i = 0; i < BATTEN_LANES / 2; i++) {
-			const real a = square[i];
-			const real b = square[i + BATTEN_LANES / 2];
-			next[2 * i] = TURNS_LOW(a, b);
-			next[2 * i + 1] = TURNS_HIGH(a, b);
-		}
-		UNROLLED
-		for (int i = 0; i < BATTEN_LANES; i++)
-			square[i] = next[i];
-	}
-}
 #endif
 
 /* Where the values of a run go: those of surface s, value v, sample n lie at out + (s * VALUES + v) *

@@ -1,5 +1,6 @@
 /* batten_device_selftest: every kernel in the shape a device would run it in. */
 #include "batch/net_engine.h"
+#include "batch/pass_engine.h"
 #include "batch/search_engine.h"
 #include "batch/surface_engine.h"
 
@@ -63,6 +64,14 @@ static batten_status test_nets(batten_context *context, size_t index, const batt
 	return net_engine_open(&plan, index, device, &engine, result);
 }
 
+static batten_status test_passes(batten_context *context, size_t index, const batten_device *device,
+                                 batten_precision precision, batten_selftest *result)
+{
+	const pass_plan plan = { .context = context, .precision = precision };
+	batch_engine *engine = NULL;
+	return pass_engine_open(&plan, index, device, &engine, result);
+}
+
 batten_status batten_device_selftest(batten_context *context, size_t index,
                                      batten_selftest *results, size_t capacity, size_t *count)
 {
@@ -73,8 +82,8 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
 	static batten_status (*const tests[])(
 		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search, test_textbook, test_surfaces, test_nets };
-	enum { PRECISIONS = 2, TESTS = 4 };
+		batten_selftest *) = { test_search, test_textbook, test_surfaces, test_nets, test_passes };
+	enum { PRECISIONS = 2, TESTS = 5 };
 	*count = (size_t)PRECISIONS * TESTS;
 	for (size_t t = 0; t < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,

@@ -14,9 +14,12 @@
 void batten_fair_options_default(batten_fair_options *options)
 {
 	*options = (batten_fair_options){ .struct_size = sizeof *options,
+		                              .method = BATTEN_METHOD_SEARCH,
 		                              .smooth = true,
+		                              .iterations = 5,
 		                              .max_distance_m = -1.0,
 		                              .max_distance_part = 0.01 };
+	batten_pass_options_default(&options->pass);
 	batten_search_options_default(&options->search);
 	batten_fit_options_default(&options->fit);
 	options->fit.stiffness = NET_STIFFNESS;
@@ -66,7 +69,8 @@ static batten_status check_options(batten_context *context, const batten_fair_op
 		return batten_fail(context, BATTEN_USAGE,
 		                   "weights w1 = %g, w2 = %g: 0 to 1e100, not both 0, are expected",
 		                   options->w1, options->w2);
-	return check_variables(context, options);
+	const batten_status status = fair_pass_check(context, options);
+	return status == BATTEN_OK ? check_variables(context, options) : status;
 }
 
 /* A faired table must not pass for the one it came from. */
@@ -132,6 +136,20 @@ static batten_status check_hull(batten_context *context, const batten_hull *hull
 	return BATTEN_OK;
 }
 
+/* By the method of the options. */
+static batten_status work(batten_fairing *fairing, const batten_fair_options *options)
+{
+	switch (options->method) {
+	case BATTEN_METHOD_SMOOTH:
+		return BATTEN_OK;
+	case BATTEN_METHOD_SEARCH:
+		return options->variables == BATTEN_VARIABLES_NET ? fair_net(fairing, options)
+		                                                  : fair_offsets(fairing, options);
+	default:
+		return fair_pass(fairing, options);
+	}
+}
+
 static batten_status run(batten_fairing *fairing, const batten_hull *hull,
                          const batten_fair_options *options)
 {
@@ -148,8 +166,7 @@ static batten_status run(batten_fairing *fairing, const batten_hull *hull,
 	                                    ? options->max_distance_m
 	                                    : options->max_distance_part *
 	                                          batten_hull_half_beam_m(fairing->smoothed);
-	status = options->variables == BATTEN_VARIABLES_NET ? fair_net(fairing, options)
-	                                                    : fair_offsets(fairing, options);
+	status = work(fairing, options);
 	return status == BATTEN_OK || status == BATTEN_INCOMPLETE ? finish(fairing) : status;
 }
 

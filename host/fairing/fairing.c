@@ -12,6 +12,7 @@ void batten_fairing_destroy(batten_fairing *fairing)
 	batten_surface_destroy(fairing->faired_surface);
 	batten_release(fairing->context, fairing->locked);
 	batten_release(fairing->context, fairing->replacements);
+	batten_release(fairing->context, fairing->rows);
 	batten_release(fairing->context, fairing);
 }
 
@@ -73,4 +74,19 @@ const batten_surface *batten_fairing_faired_surface(const batten_fairing *fairin
 batten_fairing_net batten_fairing_describe_net(const batten_fairing *fairing)
 {
 	return fairing->net;
+}
+
+size_t batten_fairing_row_count(const batten_fairing *fairing)
+{
+	return fairing->row_count;
+}
+
+const batten_fairing_row *batten_fairing_rows(const batten_fairing *fairing)
+{
+	return fairing->rows;
+}
+
+batten_fairing_pass batten_fairing_describe_pass(const batten_fairing *fairing)
+{
+	return fairing->pass;
 }

@@ -1,5 +1,5 @@
-/* One fairing, and the two ways to search it: over the offsets of the table, or over the control net
- * of a surface fitted to them. */
+/* One fairing, and the ways to it: a search over the offsets of the table or over the control net of a
+ * surface fitted to them, or passes of forward or inverse fairing. */
 #ifndef BATTEN_FAIRING_FAIRING_H
 #define BATTEN_FAIRING_FAIRING_H
 
@@ -17,6 +17,9 @@ struct batten_fairing {
 	batten_fairing_facts facts;
 	batten_surface *fitted_surface, *faired_surface; /* NULL with offsets */
 	batten_fairing_net net;
+	batten_fairing_row *rows; /* of forward and inverse methods */
+	size_t row_count;
+	batten_fairing_pass pass;
 };
 
 /* The search over a fairing that is prepared: smoothed, faired (a copy of it), locked, and of the
@@ -25,5 +28,12 @@ struct batten_fairing {
  * one or another. */
 batten_status fair_offsets(batten_fairing *fairing, const batten_fair_options *options);
 batten_status fair_net(batten_fairing *fairing, const batten_fair_options *options);
+
+/* Forward and inverse methods over the same: writes the half-breadths and line ends of faired, run,
+ * rows and pass. */
+batten_status fair_pass(batten_fairing *fairing, const batten_fair_options *options);
+
+/* The method and the options that are its own, or another's. Errors: USAGE. */
+batten_status fair_pass_check(batten_context *context, const batten_fair_options *options);
 
 #endif

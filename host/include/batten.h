@@ -1382,6 +1382,100 @@ BATTEN_API batten_status batten_net_search_batch(batten_context *context, size_t
                                                  batten_search_result *results, batten_run *run);
 
 /* ------------------------------------------------------------------------------------------------
+ * Forward and inverse fairing, many hulls at a time
+ * --------------------------------------------------------------------------------------------- */
+
+/* How a hull is faired. "Order" is degree + 1; knots are the thesis's open uniform ones; ends of lines,
+ * and points where a knuckle breaks them, stay. Words: batten_fair_method_text(). */
+#define BATTEN_FAIR_METHOD_LIST(X)                                                                 \
+	X(SEARCH, "search", "pattern search for the least fairness and closeness (thesis 7)")          \
+	X(SMOOTH, "smooth", "gross errors of single offsets replaced, nothing else (thesis 4.5)")      \
+	X(FORWARD_APPROXIMATION, "forward-approximation",                                              \
+	  "offsets as B-spline polygons, waterlines then sections, again and again (thesis 5.2)")      \
+	X(FORWARD_FIT, "forward-fit",                                                                  \
+	  "sections so, then waterlines by least squares of few vertices (thesis 5.3)")                \
+	X(INVERSE, "inverse",                                                                          \
+	  "second derivatives represented by B-splines, offsets from them (thesis 6)")
+
+typedef enum batten_fair_method {
+#define BATTEN_FAIR_METHOD_ENTRY(name, word, text) BATTEN_METHOD_##name,
+	BATTEN_FAIR_METHOD_LIST(BATTEN_FAIR_METHOD_ENTRY)
+#undef BATTEN_FAIR_METHOD_ENTRY
+} batten_fair_method;
+
+enum { BATTEN_FAIR_METHOD_COUNT = BATTEN_METHOD_INVERSE + 1 };
+
+/* "search" and what it is; NULL beyond the last. */
+BATTEN_API const char *batten_fair_method_text(size_t method);
+BATTEN_API const char *batten_fair_method_meaning(size_t method);
+
+enum { BATTEN_ITERATIONS_MOST = 10000 }; /* of a pass */
+
+typedef struct batten_pass_options {
+	size_t struct_size;
+	batten_fair_method method; /* one of the last three; FORWARD_APPROXIMATION */
+	unsigned order;            /* along waterlines, 2..8; 3 */
+	unsigned order_sections;   /* along sections; 0 (default): as order */
+	/* FORWARD_FIT: polygon vertices of each waterline; 0 (default) takes 8. INVERSE: those of each
+	 * line of a field; 0 takes the field's own points as polygon. At least the order. */
+	unsigned vertices;
+	int device; /* BATTEN_DEVICE_AUTO */
+	batten_precision precision;
+	unsigned lanes, work_group; /* as in batten_search_options */
+} batten_pass_options;
+BATTEN_API void batten_pass_options_default(batten_pass_options *options);
+
+/* One iteration of a method, made ready for all hulls of a topology: the same table, nodes, line
+ * ends, profile points and knuckles.
+ *
+ * FORWARD_APPROXIMATION: the points of a line are the polygon of its curve, the new y those at the
+ * parameters t where x(t) is the old x. t depends on x alone, so that an iteration is one linear map.
+ * FORWARD_FIT: parameters by chord length depend on y; every line of every hull is solved for itself,
+ * and one whose points do not determine its vertices stays as it is.
+ * INVERSE: the second differences along waterlines and along sections, at the inner points of lines,
+ * are two fields; each becomes a tensor-product B-spline of `order` along x and `order_sections` along
+ * z. The new offsets are those whose second differences come closest to these, sum of ((difference -
+ * asked) a b)^2, a and b being the steps beside the point: residuals are lengths, and both directions
+ * count alike. Every end of a line stays. Orders of 2 represent a field exactly: nothing changes.
+ *
+ * A line of fewer points than the method needs is passed over: the order or the vertices, 3 at least;
+ * with INVERSE its inner points. '?' cells are no points and keep their numbers. */
+typedef struct batten_pass batten_pass;
+
+/* Errors: USAGE (an option out of its range, an order or vertices that no line has points for), INPUT
+ * (a profile point behind the end of its line, a table too large), MEMORY. */
+BATTEN_API batten_status batten_pass_create(batten_context *context, const batten_hull *hull,
+                                            const batten_pass_options *options, batten_pass **out);
+
+/* The same for a single line y(x): count 3..4096, x ascending. y may have any sign. Errors: USAGE,
+ * INPUT (coincident points), MEMORY. */
+BATTEN_API batten_status batten_pass_create_line(batten_context *context, size_t count,
+                                                 const double *x_m,
+                                                 const batten_pass_options *options,
+                                                 batten_pass **out);
+BATTEN_API void batten_pass_destroy(batten_pass *pass);
+
+typedef struct batten_pass_facts {
+	size_t value_count; /* numbers a hull: nodes as in batten_hull_y_m(), then line ends off the
+	                       table; of a line its points */
+	size_t line_count;  /* pieces of lines that are faired */
+	size_t passed_count; /* pieces passed over: too short */
+	size_t term_count;  /* products of an iteration, those of fits left out */
+} batten_pass_facts;
+BATTEN_API batten_pass_facts batten_pass_describe(const batten_pass *pass);
+
+/* The numbers of a hull of the topology, [value_count]. */
+BATTEN_API void batten_pass_values(const batten_pass *pass, const batten_hull *hull, double *y_m);
+
+/* Works iterations (1..10000) of the pass on count hulls. y_m and out_m are two arrays of the caller,
+ * [count][value_count]; no half-breadth becomes less than 0. run may be NULL. The result of a hull
+ * does not depend on the others, on their order or number, nor (when strict) on what ran it. Errors:
+ * USAGE (also numbers that are not finite), DEVICE, KERNEL, MEMORY. */
+BATTEN_API batten_status batten_pass_batch(batten_context *context, const batten_pass *pass,
+                                           size_t count, unsigned iterations, const double *y_m,
+                                           double *out_m, batten_run *run);
+
+/* ------------------------------------------------------------------------------------------------
  * Fairing a hull
  * --------------------------------------------------------------------------------------------- */
 
@@ -1444,10 +1538,28 @@ typedef struct batten_net_lock {
 #define BATTEN_EDGE_STEM 4u  /* the last column */
 #define BATTEN_EDGE_DECK 8u  /* the last row */
 
+/* What a forward or inverse method is to bring back when it is done (thesis 5.2): by scaling all
+ * half-breadths, or by Lackenby's method (batten_hull_vary). */
+typedef enum batten_restore {
+	BATTEN_RESTORE_NONE,
+	BATTEN_RESTORE_BEAM,
+	BATTEN_RESTORE_VOLUME,
+	BATTEN_RESTORE_CP_LCB,
+} batten_restore;
+
 typedef struct batten_fair_options {
 	size_t struct_size;
+	batten_fair_method method; /* BATTEN_METHOD_SEARCH */
+	bool smooth;               /* replace gross errors first; true */
+	/* Of the last three methods only; device and precision are those of search. */
+	batten_pass_options pass; /* its method is the one above */
+	unsigned iterations;      /* at most, 1..10000; 5 */
+	double max_cn_pct;        /* stop before cn_pct, against the hull that is faired, passes this; 0
+	                             (default) sets no limit */
+	double least_gain_pct;    /* stop when an iteration lowers fn_per_m2 by less, in percent; 0 */
+	batten_restore restore;   /* BATTEN_RESTORE_NONE */
+	/* The rest is of SEARCH only. */
 	batten_search_options search;
-	bool smooth;              /* replace gross errors first; true */
 	bool weights_given;       /* false: by the discrepancy principle */
 	double w1, w2;            /* used when given */
 	double max_distance_m;    /* |y - smoothed y|; < 0 takes max_distance_part; 0 moves nothing */
@@ -1469,10 +1581,12 @@ BATTEN_API void batten_fair_options_default(batten_fair_options *options);
 
 typedef struct batten_fairing batten_fairing;
 
-/* Fairs one hull: gross errors, noise, weight, search; with NET the fit before the search. The hull is
- * not changed. Returns INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or
- * bound that is not on the table or the net, options of the other variables), INPUT (nothing to
- * fair, no surface to fit), DEVICE, KERNEL, MEMORY. */
+/* Fairs one hull: gross errors, then by its method; SEARCH: noise, weight, search; with NET the fit
+ * before the search. The hull is not changed. With AUTO as device the iterations of a forward or
+ * inverse method run on the C path: a single hull is done there before a kernel is found. Returns
+ * INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or bound that is not on the
+ * table or the net, options of other methods or variables), INPUT (nothing to fair, no surface to fit,
+ * also as batten_pass_create), DEVICE, KERNEL, MEMORY. */
 BATTEN_API batten_status batten_hull_fair(batten_context *context, const batten_hull *hull,
                                           const batten_fair_options *options, batten_fairing **out);
 BATTEN_API void batten_fairing_destroy(batten_fairing *fairing);
@@ -1487,6 +1601,29 @@ BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairin
 /* Of the result; NULL with NET. */
 BATTEN_API const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing);
 BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
+
+/* What a forward or inverse method came to; none with the others. */
+typedef struct batten_fairing_row {
+	unsigned iteration; /* 0: the hull that is faired */
+	bool restored;      /* after the last iteration: what restore made of it */
+	double beam_m, cwp, cb, cm, lcb_pct_lbp_fwd, volume_m3, fn_per_m2;
+	double cn_pct; /* against the hull that is faired */
+} batten_fairing_row;
+BATTEN_API size_t batten_fairing_row_count(const batten_fairing *fairing);
+BATTEN_API const batten_fairing_row *batten_fairing_rows(const batten_fairing *fairing);
+
+typedef enum batten_fairing_stop {
+	BATTEN_STOP_ITERATIONS, /* all that were asked for */
+	BATTEN_STOP_MAX_CN,     /* the next one would have passed max_cn_pct, or did not begin */
+	BATTEN_STOP_GAIN,       /* the last one gained less than least_gain_pct */
+} batten_fairing_stop;
+typedef struct batten_fairing_pass {
+	batten_fairing_stop stop;
+	size_t line_count, passed_count; /* as in batten_pass_facts */
+	double cpu_seconds;              /* of the iterations and their rows */
+	char warning[256];               /* of what restore did; "" when nothing is to be said */
+} batten_fairing_pass;
+BATTEN_API batten_fairing_pass batten_fairing_describe_pass(const batten_fairing *fairing);
 
 typedef struct batten_fairing_facts {
 	double noise_m;        /* of the smoothed hull */

@@ -1,0 +1,75 @@
+#include "batch/pass_engine.h"
+
+#include "batch/pass_launch.h"
+#include "batch/pass_selftest.h"
+#include "kernels/kernel_sources.h"
+
+#include <stdio.h>
+
+/* Most bytes of half-breadths and of states in one launch, and groups a compute unit gets. */
+enum { BLOCK_BYTES = 256 << 20, BLOCK_ROUNDS = 64 };
+
+batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten_device *device,
+                               batch_engine **out, batten_selftest *result)
+{
+	batten_context *context = plan->context;
+	batch_engine_recipe recipe = { .kernel = "fairing_pass",
+		                           .source = kernel_source_fairing_pass,
+		                           .device = index,
+		                           .precision = plan->precision,
+		                           .lanes = plan->lanes,
+		                           .work_group = plan->work_group };
+	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	(void)snprintf(recipe.options, sizeof recipe.options, "-DNUMBER_DOUBLE=%d",
+	               pass_launch_in_doubles(device, recipe.precision));
+	batch_engine *made = batch_engine_find(context, &recipe);
+	batten_status status = BATTEN_OK;
+	if (!made) {
+		made = batten_allocate(context, 1, sizeof *made);
+		if (!made)
+			return BATTEN_MEMORY;
+		status = batch_engine_start(made, context, &recipe);
+		if (status == BATTEN_OK)
+			status = batch_engine_judge(made, pass_selftest_run(made));
+		if (status == BATTEN_OK)
+			batch_engine_keep(made);
+	}
+	if (result)
+		*result = made->test;
+	if (status != BATTEN_OK)
+		batch_engine_destroy(made);
+	else
+		*out = made;
+	return status;
+}
+
+size_t pass_engine_block(const batch_engine *engine, const pass_plan *plan)
+{
+	const batten_device *device = batch_engine_device(engine);
+	const batch_engine_recipe *recipe = &engine->recipe;
+	const size_t number = batch_engine_number_size(recipe->precision);
+	const size_t group_bytes = recipe->lanes *
+	                           (pass_plan_state(plan, recipe->work_group) * number +
+	                            2 * pass_plan_values(plan) * sizeof(double));
+	size_t limit = BLOCK_BYTES;
+	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
+		limit = (size_t)device->max_allocation_bytes;
+	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
+	if (groups > limit / group_bytes)
+		groups = limit / group_bytes;
+	return (groups ? groups : 1) * recipe->lanes;
+}
+
+/* Hulls that lie side by side are run together: their half-breadths are one piece of the caller's
+ * memory. */
+batten_status pass_engine_run(batch_engine *engine, const pass_plan *plan, const size_t *which,
+                              size_t count)
+{
+	batten_status status = BATTEN_OK;
+	for (size_t begin = 0, end = 0; begin < count && status == BATTEN_OK; begin = end) {
+		for (end = begin + 1; end < count && which[end] == which[end - 1] + 1;)
+			end++;
+		status = pass_launch_run(engine, plan, which[begin], end - begin);
+	}
+	return status;
+}

@@ -1,0 +1,158 @@
+#include "batch/pass_launch.h"
+
+
+bool pass_launch_in_doubles(const batten_device *device, batten_precision precision)
+{
+	return precision == BATTEN_F64 || (device->is_cpu && device->has_f64);
+}
+
+enum {
+	SHAPE,
+	OPERATIONS,
+	ROW_FIRST,
+	ROW_TARGET,
+	TERM_INDEX,
+	TERM_FACTOR,
+	LINE_FIRST,
+	POINT_FROM,
+	POINT_TO,
+	POINT_ALONG,
+	CONSTANTS,
+	FROM,
+	TO,
+	ROOM,
+	BUFFER_COUNT
+};
+
+/* Host memory and device buffers of one run. */
+typedef struct block {
+	const batch_engine *engine;
+	const pass_plan *plan;
+	size_t first, count; /* hulls */
+	size_t groups, state_size, bytes;
+	bool doubles;
+	bool direct; /* the device works in the caller's memory */
+	float *short_numbers;
+	pass_tables tables;
+	device_buffer *buffers[BUFFER_COUNT];
+} block;
+
+static void block_release(block *b)
+{
+	for (size_t i = 0; i < BUFFER_COUNT; i++)
+		device_buffer_destroy(b->buffers[i]);
+	batten_release(b->engine->context, b->short_numbers);
+	pass_tables_release(b->plan, &b->tables);
+}
+
+static batten_status block_create(block *b)
+{
+	const batch_engine_recipe *recipe = &b->engine->recipe;
+	const batten_device *device = batch_engine_device(b->engine);
+	b->groups = (b->count + recipe->lanes - 1) / recipe->lanes;
+	b->state_size = pass_plan_state(b->plan, recipe->work_group);
+	b->doubles = pass_launch_in_doubles(device, recipe->precision);
+	b->direct = device->is_cpu && b->doubles;
+	const size_t numbers = b->count * pass_plan_values(b->plan);
+	b->bytes = numbers * (b->doubles ? sizeof(double) : sizeof(float));
+	const batten_status status = pass_tables_create(b->plan, &b->tables);
+	if (status != BATTEN_OK || b->doubles)
+		return status;
+	b->short_numbers = batten_allocate(b->engine->context, numbers, sizeof *b->short_numbers);
+	if (!b->short_numbers)
+		return BATTEN_MEMORY;
+	for (size_t n = 0; n < numbers; n++)
+		b->short_numbers[n] = (float)b->plan->y_m[b->first * pass_plan_values(b->plan) + n];
+	return BATTEN_OK;
+}
+
+/* An OpenCL buffer cannot be empty: lists that may be have room for one more. */
+static batten_status block_upload(block *b)
+{
+	const pass_program_numbers *program = b->plan->program;
+	const size_t number = batch_engine_number_size(b->engine->recipe.precision);
+	const size_t operations = (size_t)program->shape[PASS_SHAPE_OPERATIONS];
+	const size_t begin = b->first * pass_plan_values(b->plan);
+	const void *from = b->doubles ? (const void *)(b->plan->y_m + begin) : b->short_numbers;
+	const struct {
+		int which;
+		size_t size;
+		const void *from;
+	} uploads[] = {
+		{ SHAPE, sizeof b->tables.shape, b->tables.shape },
+		{ OPERATIONS, (operations + 1) * PASS_OPERATION_SIZE * sizeof(int32_t),
+		  program->operations },
+		{ ROW_FIRST, (program->row_count + 1) * sizeof(int32_t), program->row_first },
+		{ ROW_TARGET, (program->row_count + 1) * sizeof(int32_t), program->row_target },
+		{ TERM_INDEX, (program->term_count + 1) * sizeof(int32_t), program->term_index },
+		{ TERM_FACTOR, (program->term_count + 1) * number, b->tables.term_factor },
+		{ LINE_FIRST, (program->line_count + 1) * sizeof(int32_t), program->line_first },
+		{ POINT_FROM, (program->point_count + 1) * sizeof(int32_t), program->point_from },
+		{ POINT_TO, (program->point_count + 1) * sizeof(int32_t), program->point_to },
+		{ POINT_ALONG, (program->point_count + 1) * number, b->tables.point_along },
+		{ CONSTANTS, ((size_t)program->shape[PASS_SHAPE_CONSTANTS] + 1) * number,
+		  b->tables.constants },
+		{ ROOM, b->groups * b->state_size * b->engine->recipe.lanes * number, NULL },
+		{ FROM, b->direct ? 0 : b->bytes, from },
+		{ TO, b->direct ? 0 : b->bytes, NULL },
+	};
+	device_session *session = b->engine->session;
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
+		if (uploads[i].size > 0)
+			status = device_buffer_create(session, uploads[i].size, uploads[i].from,
+			                              &b->buffers[uploads[i].which]);
+	/* Wrapped memory is read only, whatever its type says. */
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(session, b->bytes, (void *)(uintptr_t)from, &b->buffers[FROM]);
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(session, b->bytes, b->plan->out_m + begin, &b->buffers[TO]);
+	return status;
+}
+
+static batten_status block_launch(const block *b)
+{
+	enum { PLAIN = 2 };
+	const int32_t plain[PLAIN] = { (int32_t)b->count, (int32_t)b->state_size };
+	device_argument arguments[PLAIN + BUFFER_COUNT] = { { 0 } };
+	for (size_t i = 0; i < PLAIN; i++)
+		arguments[i] = (device_argument){ .size = sizeof plain[i], .value = &plain[i] };
+	for (size_t i = 0; i < BUFFER_COUNT; i++)
+		arguments[PLAIN + i] = (device_argument){ .buffer = b->buffers[i] };
+	return device_launch(b->engine->session, b->engine->kernel, arguments, PLAIN + BUFFER_COUNT,
+	                     b->groups, b->engine->recipe.work_group);
+}
+
+static batten_status block_read(const block *b)
+{
+	const size_t begin = b->first * pass_plan_values(b->plan);
+	if (b->direct)
+		return device_buffer_settle(b->buffers[TO]);
+	if (b->doubles)
+		return device_buffer_read(b->buffers[TO], b->bytes, b->plan->out_m + begin);
+	const batten_status status = device_buffer_read(b->buffers[TO], b->bytes, b->short_numbers);
+	for (size_t n = 0; n < b->count * pass_plan_values(b->plan) && status == BATTEN_OK; n++)
+		b->plan->out_m[begin + n] = (double)b->short_numbers[n];
+	return status;
+}
+
+batten_status pass_launch_run(const batch_engine *engine, const pass_plan *plan, size_t first,
+                              size_t count)
+{
+	block b = { .engine = engine, .plan = plan, .first = first, .count = count };
+	batten_status status = block_create(&b);
+	if (status == BATTEN_OK) {
+		status = block_upload(&b);
+		if (status == BATTEN_OK)
+			status = block_launch(&b);
+		if (status == BATTEN_OK)
+			status = block_read(&b);
+		/* Nothing may write to the caller's memory any more. */
+		if (status != BATTEN_OK)
+			(void)device_finish(engine->session);
+		if (status != BATTEN_OK && *device_session_error(engine->session))
+			status = batch_engine_fail(engine, status);
+	}
+	block_release(&b);
+	return status;
+}

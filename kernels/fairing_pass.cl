@@ -1,0 +1,109 @@
+/* Passes of forward and inverse fairing (thesis 5.2, 5.3, 6) over many hulls of one topology.
+ *
+ * A work-group has BATTEN_LANES hulls, one a lane of `real`, and goes through all iterations of the
+ * pass; its work-items share the rows and lines of an operation. On a CPU: many lanes, one work-item.
+ * On a GPU: one lane, many work-items. Every row and line is worked in one fixed order by one
+ * work-item, so the shape does not change a bit of the result.
+ *
+ * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, and NUMBER_DOUBLE: whether half-breadths come and
+ * go as doubles or in the precision. */
+#define BATTEN_DIALECT_OPENCL
+#include "shared/dialect.h"
+#include "shared/pass_run.h"
+#include "shared/turn.h"
+
+#if !defined(NUMBER_DOUBLE)
+#define NUMBER_DOUBLE BATTEN_DOUBLE
+#endif
+#if NUMBER_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#define NUMBER_NAME double
+#else
+#define NUMBER_NAME float
+#endif
+typedef NUMBER_NAME number;
+#if BATTEN_LANES == 1
+#define LOAD(from) ((real)(*(from)))
+#define STORE(a, to) (*(to) = (number)(a))
+#else
+#define AS(name, lanes) BATTEN_PASTE(convert_, BATTEN_PASTE(name, lanes))
+#define LOAD(from) AS(BATTEN_REAL_NAME, BATTEN_LANES)(BATTEN_PASTE(vload, BATTEN_LANES)(0, from))
+#define STORE(a, to)                                                                               \
+	BATTEN_PASTE(vstore, BATTEN_LANES)(AS(NUMBER_NAME, BATTEN_LANES)(a), 0, to)
+#endif
+
+/* The values of the lanes' hulls, each beside its next: hull l begins at from + l * values. Lanes
+ * beyond the last hull work that one again. */
+static inline void take(global const number *from, int values, int hulls, global real *state)
+{
+	const int whole = values - values % BATTEN_LANES;
+	ROLLED
+	for (int v = WORK_ITEM * BATTEN_LANES; v < whole; v += WORK_ITEMS * BATTEN_LANES) {
+		real square[BATTEN_LANES];
+		UNROLLED
+		for (int l = 0; l < BATTEN_LANES; l++)
+			square[l] = LOAD(from + (size_t)(l < hulls ? l : hulls - 1) * (size_t)values + v);
+		turn(square);
+		UNROLLED
+		for (int l = 0; l < BATTEN_LANES; l++)
+			state[v + l] = square[l];
+	}
+	ROLLED
+	for (int n = WORK_ITEM; n < (values - whole) * BATTEN_LANES; n += WORK_ITEMS) {
+		const int l = n % BATTEN_LANES;
+		const int v = whole + n / BATTEN_LANES;
+		((global scalar *)(state + v))[l] =
+			(scalar)from[(size_t)(l < hulls ? l : hulls - 1) * (size_t)values + v];
+	}
+}
+
+static inline void give_back(global const real *state, int values, int hulls, global number *to)
+{
+	const int whole = values - values % BATTEN_LANES;
+	ROLLED
+	for (int v = WORK_ITEM * BATTEN_LANES; v < whole; v += WORK_ITEMS * BATTEN_LANES) {
+		real square[BATTEN_LANES];
+		UNROLLED
+		for (int l = 0; l < BATTEN_LANES; l++)
+			square[l] = state[v + l];
+		turn(square);
+		UNROLLED
+		for (int l = 0; l < BATTEN_LANES; l++)
+			if (l < hulls)
+				STORE(square[l], to + (size_t)l * (size_t)values + v);
+	}
+	ROLLED
+	for (int n = WORK_ITEM; n < (values - whole) * BATTEN_LANES; n += WORK_ITEMS) {
+		const int l = n % BATTEN_LANES;
+		const int v = whole + n / BATTEN_LANES;
+		if (l < hulls)
+			to[(size_t)l * (size_t)values + v] = (number)((global const scalar *)(state + v))[l];
+	}
+}
+
+/* The program: see pass_run.h. constants: those of the state. from, to [hull][values]; hulls: of all
+ * groups. room: state_size reals a group. */
+kernel void fairing_pass(int hulls, int state_size, global const int *shape,
+                         global const int *operations, global const int *row_first,
+                         global const int *row_target, global const int *term_index,
+                         global const scalar *term_factor, global const int *line_first,
+                         global const int *point_from, global const int *point_to,
+                         global const scalar *point_along, global const scalar *constants,
+                         global const number *from, global number *to, global real *room)
+{
+	const size_t group = get_group_id(0);
+	const int values = shape[PASS_SHAPE_VALUES];
+	const int left = hulls - (int)group * BATTEN_LANES;
+	const int here = left < BATTEN_LANES ? left : BATTEN_LANES;
+	const size_t first = group * BATTEN_LANES * (size_t)values;
+	global real *state = room + group * (size_t)state_size;
+	const pass_program program = { shape,       operations, row_first,  row_target, term_index,
+		                           term_factor, line_first, point_from, point_to,   point_along };
+	take(from + first, values, here, state);
+	ROLLED
+	for (int c = WORK_ITEM; c < shape[PASS_SHAPE_CONSTANTS]; c += WORK_ITEMS)
+		state[values + c] = SPREAD(constants[c]);
+	WAIT;
+	pass_run(&program, state);
+	give_back(state, values, here, to + first);
+}

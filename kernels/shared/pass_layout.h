@@ -1,0 +1,42 @@
+/* A fairing pass as the list of operations it is, the same for every hull of a topology (thesis 5.2,
+ * 5.3, 6): host, C path and kernel read the same numbers.
+ *
+ * The state of a hull is one row of reals: first its values (half-breadths), then constants (profile
+ * points), then room. An iteration works the operations one after the other; each leaves its results
+ * in the state, and after the last one the values are the new ones. */
+#ifndef BATTEN_SHARED_PASS_LAYOUT_H
+#define BATTEN_SHARED_PASS_LAYOUT_H
+
+/* Kinds of operations, and of what `first` and `count` are numbers. */
+enum {
+	/* rows: state[target] = sum of factor * state[index], no row reading what another one writes */
+	PASS_ROWS = 0,
+	PASS_ROWS_IN_ORDER, /* rows that read what those before them wrote: triangular systems */
+	PASS_FLOOR,         /* values: below 0 they become 0 */
+	PASS_FIT,           /* lines: least squares with parameters by chord length, which depend on y */
+};
+
+/* An operation. */
+enum { PASS_KIND, PASS_FIRST, PASS_COUNT, PASS_OPERATION_SIZE };
+
+/* What the kernel is told about the pass. */
+enum {
+	PASS_SHAPE_ITERATIONS,
+	PASS_SHAPE_OPERATIONS,
+	PASS_SHAPE_VALUES,
+	PASS_SHAPE_CONSTANTS,
+	PASS_SHAPE_STATE,      /* values, constants and room, but that of fits */
+	PASS_SHAPE_FIT_ORDER,  /* 0 without fits */
+	PASS_SHAPE_VERTICES,   /* of each fitted line */
+	PASS_SHAPE_FIT_POINTS, /* of the longest of them */
+	PASS_SHAPE_SIZE
+};
+
+enum { PASS_ORDER_LEAST = 2, PASS_ORDER_MOST = 8 };
+
+/* Room a work-item needs for fits, in reals: parameters, the band of the normal equations, x and y
+ * of the vertices. */
+#define PASS_FIT_ROOM(order, vertices, points)                                                     \
+	((order) > 0 ? (points) + (vertices) * ((order) + 2) : 0)
+
+#endif

@@ -1,0 +1,86 @@
+/* The course of a pass (pass_layout.h), the same source for the kernel and the C path. The includer
+ * has dialect.h. */
+#ifndef BATTEN_SHARED_PASS_RUN_H
+#define BATTEN_SHARED_PASS_RUN_H
+
+#include "shared/pass_fit.h"
+
+/* What the hulls of a batch share. */
+typedef struct pass_program {
+	GLOBAL const int *shape;      /* PASS_SHAPE_SIZE */
+	GLOBAL const int *operations; /* [operations][PASS_OPERATION_SIZE] */
+	GLOBAL const int *row_first;  /* [rows + 1]: its first term */
+	GLOBAL const int *row_target; /* [rows] */
+	GLOBAL const int *term_index; /* [terms] */
+	GLOBAL const scalar *term_factor;
+	GLOBAL const int *line_first; /* [lines + 1]: its first point */
+	GLOBAL const int *point_from, *point_to;
+	GLOBAL const scalar *point_along;
+} pass_program;
+
+SHARED_FUNCTION void pass_work_row(const pass_program *p, int row, GLOBAL real *state)
+{
+	const int end = p->row_first[row + 1];
+	int n = p->row_first[row];
+	real sum = SPREAD(p->term_factor[n]) * state[p->term_index[n]];
+	ROLLED
+	for (n++; n < end; n++)
+		sum += SPREAD(p->term_factor[n]) * state[p->term_index[n]];
+	state[p->row_target[row]] = sum;
+}
+
+SHARED_FUNCTION void pass_work_line(const pass_program *p, int line, GLOBAL real *state)
+{
+	const int first = p->line_first[line];
+	pass_line l;
+	l.points = p->line_first[line + 1] - first;
+	l.order = p->shape[PASS_SHAPE_FIT_ORDER];
+	l.vertices = p->shape[PASS_SHAPE_VERTICES];
+	l.from = p->point_from + first;
+	l.to = p->point_to + first;
+	l.along = p->point_along + first;
+	l.parameter = state + p->shape[PASS_SHAPE_STATE] +
+	              WORK_ITEM * PASS_FIT_ROOM(l.order, l.vertices, p->shape[PASS_SHAPE_FIT_POINTS]);
+	l.band = l.parameter + p->shape[PASS_SHAPE_FIT_POINTS];
+	l.x = l.band + l.vertices * l.order;
+	l.y = l.x + l.vertices;
+	pass_fit_line(&l, state);
+}
+
+SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOBAL real *state)
+{
+	const int kind = p->operations[number * PASS_OPERATION_SIZE + PASS_KIND];
+	const int first = p->operations[number * PASS_OPERATION_SIZE + PASS_FIRST];
+	const int end = first + p->operations[number * PASS_OPERATION_SIZE + PASS_COUNT];
+	const real zero = SPREAD(LITERAL(0.0));
+	if (kind == PASS_ROWS || (kind == PASS_ROWS_IN_ORDER && WORK_ITEM == 0)) {
+		const int step = kind == PASS_ROWS ? WORK_ITEMS : 1;
+		ROLLED
+		for (int row = first + (kind == PASS_ROWS ? WORK_ITEM : 0); row < end; row += step)
+			pass_work_row(p, row, state);
+	} else if (kind == PASS_FLOOR) {
+		ROLLED
+		for (int v = first + WORK_ITEM; v < end; v += WORK_ITEMS)
+			state[v] = CHOOSE(state[v] < zero, zero, state[v]);
+	} else if (kind == PASS_FIT) {
+		ROLLED
+		for (int line = first + WORK_ITEM; line < end; line += WORK_ITEMS)
+			pass_work_line(p, line, state);
+	}
+}
+
+SHARED_FUNCTION void pass_run(const pass_program *p, GLOBAL real *state)
+{
+	const int iterations = p->shape[PASS_SHAPE_ITERATIONS];
+	const int operations = p->shape[PASS_SHAPE_OPERATIONS];
+	ROLLED
+	for (int iteration = 0; iteration < iterations; iteration++) {
+		ROLLED
+		for (int n = 0; n < operations; n++) {
+			pass_work_operation(p, n, state);
+			WAIT;
+		}
+	}
+}
+
+#endif
