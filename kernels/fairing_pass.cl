@@ -28,8 +28,7 @@ typedef NUMBER_NAME number;
 #else
 #define AS(name, lanes) BATTEN_PASTE(convert_, BATTEN_PASTE(name, lanes))
 #define LOAD(from) AS(BATTEN_REAL_NAME, BATTEN_LANES)(BATTEN_PASTE(vload, BATTEN_LANES)(0, from))
-#define STORE(a, to)                                                                               \
-	BATTEN_PASTE(vstore, BATTEN_LANES)(AS(NUMBER_NAME, BATTEN_LANES)(a), 0, to)
+#define STORE(a, to) BATTEN_PASTE(vstore, BATTEN_LANES)(AS(NUMBER_NAME, BATTEN_LANES)(a), 0, to)
 #endif
 
 /* The values of the lanes' hulls, each beside its next: hull l begins at from + l * values. Lanes
@@ -52,8 +51,8 @@ static inline void take(global const number *from, int values, int hulls, global
 	for (int n = WORK_ITEM; n < (values - whole) * BATTEN_LANES; n += WORK_ITEMS) {
 		const int l = n % BATTEN_LANES;
 		const int v = whole + n / BATTEN_LANES;
-		((global scalar *)(state + v))[l] =
-			(scalar)from[(size_t)(l < hulls ? l : hulls - 1) * (size_t)values + v];
+		((global scalar *)(state + v))[l] = (scalar)
+			from[(size_t)(l < hulls ? l : hulls - 1) * (size_t)values + v];
 	}
 }
 

@@ -48,9 +48,8 @@ size_t pass_engine_block(const batch_engine *engine, const pass_plan *plan)
 	const batten_device *device = batch_engine_device(engine);
 	const batch_engine_recipe *recipe = &engine->recipe;
 	const size_t number = batch_engine_number_size(recipe->precision);
-	const size_t group_bytes = recipe->lanes *
-	                           (pass_plan_state(plan, recipe->work_group) * number +
-	                            2 * pass_plan_values(plan) * sizeof(double));
+	const size_t group_bytes = recipe->lanes * (pass_plan_state(plan, recipe->work_group) * number +
+	                                            2 * pass_plan_values(plan) * sizeof(double));
 	size_t limit = BLOCK_BYTES;
 	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
 		limit = (size_t)device->max_allocation_bytes;

@@ -1,6 +1,5 @@
 #include "batch/pass_launch.h"
 
-
 bool pass_launch_in_doubles(const batten_device *device, batten_precision precision)
 {
 	return precision == BATTEN_F64 || (device->is_cpu && device->has_f64);

@@ -65,8 +65,8 @@ static void make_lines(test_batch *t)
 
 static pass_program_numbers make_program(test_batch *t)
 {
-	const int32_t operations[] = { PASS_ROWS,  0, VALUES, PASS_ROWS_IN_ORDER, VALUES, VALUES,
-		                           PASS_FIT,   0, LINES,  PASS_FLOOR,         0,      VALUES };
+	const int32_t operations[] = { PASS_ROWS, 0, VALUES, PASS_ROWS_IN_ORDER, VALUES, VALUES,
+		                           PASS_FIT,  0, LINES,  PASS_FLOOR,         0,      VALUES };
 	memcpy(t->operations, operations, sizeof operations);
 	make_rows(t);
 	make_lines(t);
@@ -135,7 +135,8 @@ static void compare(const pass_plan *plan, const test_batch *t, batten_selftest 
 			worst = off;
 	}
 	test->compared += plan->count * VALUES;
-	batch_engine_compare(test, worst, test->precision == BATTEN_F64 ? 1e-9 : 1e-2, "a half-breadth");
+	batch_engine_compare(test, worst, test->precision == BATTEN_F64 ? 1e-9 : 1e-2,
+	                     "a half-breadth");
 }
 
 batten_status pass_selftest_run(batch_engine *engine)

@@ -13,12 +13,14 @@
 static const cli_command command = {
 	.name = "fair",
 	.usage = "HULL.csv [--out DIR] [OPTION ...]",
-	.summary = "replaces gross errors of the offsets, then fairs them by pattern search",
+	.summary = "fairs a hull: by pattern search, forward or inverse fairing, or all of them",
 	.example =
 		"  batten fair data/hulls/npl_parent.csv --out demo\n"
 		"  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n"
 		"  batten fair data/hulls/npl_parent.csv --fairness mean --longitudinal 4\n"
-		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n",
+		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n"
+		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
+		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
 		"NAME-faired by default. Minimises w1 * fairness + w2 * closeness / h^4 (h: half-beam) over\n"
@@ -29,7 +31,13 @@ static const cli_command command = {
 		"--max-distance of the fit, and so does the surface; station:, waterline: and point: lock all poles\n"
 		"that have a part in the surface there. Poles of edges in the centreplane stay. faired.csv has the\n"
 		"half-breadths of the faired surface, DIR/surface.json the surface in metres, frame ap-fwd; profile\n"
-		"zeros, locked offsets and what lies off the surface keep their numbers (the report counts these).\n",
+		"zeros, locked offsets and what lies off the surface keep their numbers (the report counts these).\n"
+		"--method smooth replaces gross errors and stops. The forward methods and inverse (thesis 5, 6)\n"
+		"take the file as it is (--smooth replaces gross errors first), work line by line and print a row an\n"
+		"iteration; ends of lines stay, stem, stern and keel points beyond the table come from its profile\n"
+		"rows. forward-approximation: the points of a line are the polygon of its B-spline; forward-fit:\n"
+		"waterlines by least squares; inverse: the second derivatives along waterlines and sections as\n"
+		"B-spline surfaces, then the offsets that come closest to them. Order 2 changes nothing.\n",
 };
 
 void fair_warn(fair_job *job, const char *format, ...)
@@ -93,6 +101,20 @@ static void warn_of_net(fair_job *job)
 		          job->after.to_smoothed.cn_max_m, limit, net.deviation.max_m);
 }
 
+static void warn_of_passes(fair_job *job)
+{
+	const batten_fairing_pass pass = batten_fairing_describe_pass(job->fairing);
+	if (pass.facts.passed_count > 0)
+		fair_warn(job,
+		          "%zu lines or pieces of lines have too few points for the method and were passed "
+		          "over, %zu were faired",
+		          pass.facts.passed_count, pass.facts.line_count);
+	if (batten_fairing_row_count(job->fairing) == 1)
+		fair_warn(job, "the first iteration would have passed --max-cn: nothing is changed");
+	if (pass.warning[0])
+		fair_warn(job, "--restore: %s", pass.warning);
+}
+
 /* What a naval architect wants to be told before using the result. */
 static void warn_of_changes(fair_job *job)
 {
@@ -109,6 +131,8 @@ static void warn_of_changes(fair_job *job)
 		          1000.0 * job->after.to_input.cn_max_m);
 	if (job->options.variables == BATTEN_VARIABLES_NET)
 		warn_of_net(job);
+	if (fair_is_pass(&job->options))
+		warn_of_passes(job);
 	if (batten_fairing_result(job->fairing)->end == BATTEN_SEARCH_LIMIT)
 		fair_warn(job, "the search met its iteration limit and is not converged");
 	if (batten_fairing_run(job->fairing)->warning[0])
@@ -221,7 +245,8 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 {
 	const cli_option options[] = {
 		{ "out", CLI_TEXT, &request->out, "DIR", "folder for the results (NAME-faired)" },
-		{ "method", CLI_TEXT, &request->method, "NAME", "search (default)" },
+		{ "method", CLI_TEXT, &request->method, "NAME",
+		  "search (default), smooth, forward-approximation, forward-fit or inverse" },
 		{ "search", CLI_TEXT, &request->search, "NAME",
 		  "auto (default), multilevel, textbook (the thesis's, to compare with)" },
 		{ "variables", CLI_TEXT, &request->variables, "NAME",
@@ -235,7 +260,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "net", CLI_TEXT, &request->net, "MxN",
 		  "poles along the hull and from keel to deck (chosen from the table and its noise)" },
 		{ "order", CLI_TEXT, &request->order, "KxL",
-		  "orders of the net, degree + 1, 2 to 8 (4x4)" },
+		  "orders of the net, degree + 1, 2 to 8 (4x4); with other methods K along waterlines (3)" },
 		{ "fix-tangent", CLI_TEXT, &request->tangents, "EDGES",
 		  "keel,stern,stem,deck: their poles move with those beside them, so tangents stay" },
 		{ "round", CLI_TEXT, &request->rounded, "EDGES",
@@ -251,7 +276,19 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "upper", CLI_TEXT, &request->upper_path, "FILE", "upper offsets on the same table" },
 		{ "no-smooth", CLI_FLAG, &request->no_smooth, NULL, "leave gross errors as they are" },
 		{ "iterations", CLI_COUNT, &request->iterations, "N",
-		  "iteration limit (400; 20000 with --search textbook)" },
+		  "iteration limit (400; textbook 20000); iterations of forward (5) and inverse (1) methods" },
+		{ "order-sections", CLI_COUNT, &request->order_sections, "K",
+		  "order along the sections, of forward and inverse methods (as --order)" },
+		{ "vertices", CLI_COUNT, &request->vertices, "N",
+		  "forward-fit: vertices of a waterline (8); inverse: of a line of a field (its points)" },
+		{ "max-cn", CLI_NUMBER, &request->max_cn, "PERCENT",
+		  "forward and inverse: stop before an offset moved by more of the half-beam" },
+		{ "least-gain", CLI_NUMBER, &request->least_gain, "PERCENT",
+		  "forward and inverse: stop when an iteration lowers fn by less" },
+		{ "restore", CLI_TEXT, &request->restore, "WHAT",
+		  "forward and inverse: bring back beam, volume or cp,lcb" },
+		{ "smooth", CLI_FLAG, &request->smooth_first, NULL,
+		  "forward and inverse: replace gross errors first, as the search does" },
 		{ "device", CLI_DEVICE, &request->device, "D",
 		  "auto (default), reference (plain C), or an index of 'batten devices'" },
 		{ "precision", CLI_PRECISION, &request->precision, "P", "f64 (default) or f32" },
@@ -277,6 +314,10 @@ batten_status cli_fair(int argc, char **argv)
 		                     .longitudinal = NAN,
 		                     .transverse = NAN,
 		                     .iterations = UINT_MAX,
+		                     .order_sections = UINT_MAX,
+		                     .vertices = UINT_MAX,
+		                     .max_cn = NAN,
+		                     .least_gain = NAN,
 		                     .device = BATTEN_DEVICE_AUTO,
 		                     .precision = BATTEN_F64,
 		                     .argc = argc,

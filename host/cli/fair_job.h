@@ -14,7 +14,10 @@ typedef struct fair_request {
 	const char *max_distance, *lock, *lower_path, *upper_path;
 	const char *net, *order, *tangents, *rounded; /* NULL: not given */
 	double w1, w2, longitudinal, transverse;      /* NaN: not given */
-	bool no_smooth;
+	const char *restore;                          /* NULL: not given */
+	unsigned order_sections, vertices;            /* UINT_MAX: not given */
+	double max_cn, least_gain;                    /* NaN: not given */
+	bool no_smooth, smooth_first;
 	unsigned iterations, seed; /* iterations UINT_MAX: not given */
 	int device;
 	batten_precision precision;
@@ -55,6 +58,15 @@ typedef struct fair_job {
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,
                                 batten_fair_options *options, fair_locks *locks);
 
+/* The method, and what forward and inverse methods are asked for. */
+batten_status fair_pass_options_read(const fair_request *request, batten_fair_options *options);
+
+/* Whether the method is one of iterations of a pass, with a row each. */
+bool fair_is_pass(const batten_fair_options *options);
+
+/* "beam" ... as --restore has them; NULL for none. */
+const char *fair_restore_text(batten_restore restore);
+
 /* The part of it that is about the net: variables, fairness, size, orders, edges. */
 batten_status fair_net_options_read(const fair_request *request, batten_fair_options *options);
 
@@ -73,6 +85,9 @@ batten_status fair_report_write(const fair_job *job, FILE *stream);
 
 /* The short table: each measure before, smoothed, after, change. */
 void fair_table_print(const fair_job *job, FILE *stream);
+
+/* The iterations of a forward or inverse method: as a table, and as JSON (fair_passes.c). */
+void fair_passes_print(const batten_fairing *fairing, FILE *stream);
 
 /* Draws and writes everything into the folder; each file appears whole or not at all, and none
  * before all are ready. */

@@ -21,12 +21,9 @@ static batten_status check_word(const char *option, const char *found, const cha
 
 static batten_status check_words(const fair_request *request)
 {
-	static const char *const methods[] = { "search", NULL };
 	static const char *const searches[] = { "auto", "textbook", "multilevel", NULL };
 	static const char *const variables[] = { "offsets", "net", NULL };
-	batten_status status = check_word("method", request->method, methods);
-	if (status == BATTEN_OK)
-		status = check_word("search", request->search, searches);
+	batten_status status = check_word("search", request->search, searches);
 	if (status == BATTEN_OK)
 		status = check_word("variables", request->variables, variables);
 	return status;
@@ -142,9 +139,15 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
                                 batten_fair_options *options, fair_locks *locks)
 {
 	batten_fair_options_default(options);
+	options->smooth = !request->no_smooth;
+	options->search.device = request->device;
+	options->search.precision = request->precision;
 	batten_status status = check_words(request);
 	if (status == BATTEN_OK)
-		status = fair_net_options_read(request, options);
+		status = fair_pass_options_read(request, options);
+	if (status != BATTEN_OK || options->method != BATTEN_METHOD_SEARCH)
+		return status;
+	status = fair_net_options_read(request, options);
 	if (status != BATTEN_OK)
 		return status;
 	options->weights_given = !isnan(request->w1);
@@ -157,9 +160,6 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 		return cli_usage("fair", "--iterations: found 0, expected 1 to 1000000");
 	options->w1 = request->w1;
 	options->w2 = request->w2;
-	options->smooth = !request->no_smooth;
-	options->search.device = request->device;
-	options->search.precision = request->precision;
 	if (!isnan(request->longitudinal))
 		options->search.longitudinal_weight = request->longitudinal;
 	if (!isnan(request->transverse))

@@ -1,6 +1,7 @@
 /* report.json of batten fair. */
 #include "fair_job.h"
 
+#include "fair_passes.h"
 #include "json_out.h"
 
 #include <string.h>
@@ -119,24 +120,21 @@ static json_t *device_json(int device)
 	return device == BATTEN_DEVICE_REFERENCE ? json_string("reference") : json_integer(device);
 }
 
-static json_t *method_json(const fair_job *job)
+/* What is of the search alone. */
+static void set_search(json_t *object, const fair_job *job)
 {
 	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
 	const fair_request *request = job->request;
 	const bool net = job->options.variables == BATTEN_VARIABLES_NET;
-	json_t *object = json_object();
-	set(object, "method", json_string("search"));
 	set(object, "search",
 	    json_string(batten_search_algorithm_text(batten_fairing_result(job->fairing)->algorithm)));
 	set(object, "variables", json_string(net ? "net" : "offsets"));
 	set(object, "fairness", json_string(fair_fairness_text(job->options.fairness)));
 	set(object, "longitudinal_weight", number(job->options.search.longitudinal_weight));
 	set(object, "transverse_weight", number(job->options.search.transverse_weight));
-	set(object, "smooth", json_boolean(!request->no_smooth));
 	set(object, "w1", number(facts.w1));
 	set(object, "w2", number(facts.w2));
 	set(object, "weights", json_string(facts.weights_by_noise ? "discrepancy principle" : "given"));
-	set(object, "noise_m", number(facts.noise_m));
 	set(object, "max_distance_m", number(facts.max_distance_m));
 	set(object, "upper_half_beams", number(1.2));
 	set(object, "lock", path_json(request->lock));
@@ -144,13 +142,41 @@ static json_t *method_json(const fair_job *job)
 	set(object, "upper", path_json(request->upper_path));
 	set(object, "fix_tangent", path_json(request->tangents));
 	set(object, "round", path_json(request->rounded));
-	set(object, "seed", count(request->seed));
-	set(object, "device_asked_for", device_json(request->device));
 	set(object, "iteration_limit", count(job->options.search.iteration_limit));
 	set(object, "variable_count", count(facts.variable_count));
 	set(object, "at_limit_count", count(facts.at_limit_count));
-	set(object, "filled_count", count(facts.filled_count));
 	set(object, "rms_change_m", number(facts.rms_change_m));
+}
+
+/* What is of forward and inverse methods alone. */
+static void set_pass(json_t *object, const fair_job *job)
+{
+	const batten_fair_options *o = &job->options;
+	const char *restore = fair_restore_text(o->restore);
+	const batten_pass_facts facts = batten_fairing_describe_pass(job->fairing).facts;
+	set(object, "order", count(facts.order));
+	set(object, "order_sections", count(facts.order_sections));
+	set(object, "vertices", facts.vertices ? count(facts.vertices) : json_null());
+	set(object, "iterations", count(o->iterations));
+	set(object, "max_cn_pct", o->max_cn_pct > 0.0 ? number(o->max_cn_pct) : json_null());
+	set(object, "least_gain_pct", number(o->least_gain_pct));
+	set(object, "restore", restore ? json_string(restore) : json_null());
+}
+
+static json_t *method_json(const fair_job *job)
+{
+	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
+	json_t *object = json_object();
+	set(object, "method", json_string(batten_fair_method_text((size_t)job->options.method)));
+	set(object, "smooth", json_boolean(job->options.smooth));
+	set(object, "noise_m", number(facts.noise_m));
+	set(object, "seed", count(job->request->seed));
+	set(object, "device_asked_for", device_json(job->request->device));
+	set(object, "filled_count", count(facts.filled_count));
+	if (job->options.method == BATTEN_METHOD_SEARCH)
+		set_search(object, job);
+	else if (fair_is_pass(&job->options))
+		set_pass(object, job);
 	return object;
 }
 
@@ -200,8 +226,11 @@ static json_t *surface_json(const fair_job *job)
 	return object;
 }
 
+/* Null where nothing was searched. */
 static json_t *search_json(const fair_job *job)
 {
+	if (job->options.method != BATTEN_METHOD_SEARCH)
+		return json_null();
 	const batten_search_result *result = batten_fairing_result(job->fairing);
 	const batten_run *run = batten_fairing_run(job->fairing);
 	const batten_certificate *certificate = batten_fairing_certificate(job->fairing);
@@ -235,6 +264,7 @@ batten_status fair_report_write(const fair_job *job, FILE *stream)
 	set(report, "method", method_json(job));
 	set(report, "surface", surface_json(job));
 	set(report, "search", search_json(job));
+	set(report, "passes", fair_passes_json(job));
 	set(report, "pictures", job->vulkan_driver[0] ? json_string(job->vulkan_driver) : json_null());
 	json_t *warnings = json_array();
 	for (size_t w = 0; w < job->warning_count; w++)

@@ -124,6 +124,10 @@ void fair_table_print(const fair_job *job, FILE *stream)
 	(void)fprintf(stream, "%-22s %12s %12s %12.6g\n", "cn_search_pct", "", "",
 	              job->after.to_smoothed.cn_pct);
 	const bool net = job->options.variables == BATTEN_VARIABLES_NET;
+	if (fair_is_pass(&job->options))
+		fair_passes_print(job->fairing, stream);
+	if (job->options.method != BATTEN_METHOD_SEARCH)
+		return;
 	if (net)
 		print_net(job, stream);
 	(void)fprintf(

@@ -214,9 +214,7 @@ batten_status fair_pass(batten_fairing *fairing, const batten_fair_options *opti
 	batten_status status = fairing->rows ? batten_pass_create(context, fairing->faired, &how, &pass)
 	                                     : BATTEN_MEMORY;
 	if (status == BATTEN_OK) {
-		const batten_pass_facts facts = batten_pass_describe(pass);
-		fairing->pass.line_count = facts.line_count;
-		fairing->pass.passed_count = facts.passed_count;
+		fairing->pass.facts = batten_pass_describe(pass);
 		status = run_iterations(fairing, options, pass);
 	}
 	if (status == BATTEN_OK)

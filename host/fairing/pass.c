@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { VERTICES_OF_FIT = 8 };
+enum { VERTICES_OF_FIT = 8 }; /* no order is above */
 
 struct batten_pass {
 	batten_context *context;
@@ -67,7 +67,7 @@ static batten_status check_options(batten_context *context, batten_pass_options 
 		                   "forward-fit and inverse take vertices",
 		                   o->vertices);
 	if (o->method == BATTEN_METHOD_FORWARD_FIT && o->vertices == 0)
-		o->vertices = o->order > VERTICES_OF_FIT ? o->order : VERTICES_OF_FIT;
+		o->vertices = VERTICES_OF_FIT;
 	const unsigned most = o->method == BATTEN_METHOD_INVERSE && o->order_sections > o->order
 	                          ? o->order_sections
 	                          : o->order;

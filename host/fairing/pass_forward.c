@@ -2,7 +2,6 @@
  * one from there back into the values. */
 #include "fairing/pass_forward.h"
 
-
 /* Where each value is after the first direction. */
 typedef struct stage {
 	pass_writer *writer;

@@ -75,8 +75,10 @@ static void begin(inverse *v, pass_writer *writer, pass_task *task)
 
 static void end(inverse *v)
 {
-	void *memory[] = { v->fields[0].at, v->fields[0].point, v->fields[1].at, v->fields[1].point,
-		               v->unknown,      v->right,           v->value,        v->in,
+	void *memory[] = { v->fields[0].at, v->fields[0].point,
+		               v->fields[1].at, v->fields[1].point,
+		               v->unknown,      v->right,
+		               v->value,        v->in,
 		               v->out,          v->along };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(v->writer->context, memory[i]);
@@ -318,9 +320,10 @@ static void write_solution(inverse *v)
 	if (writer->status == BATTEN_OK) {
 		each_equation(v, add_equation, &system);
 		if (!pass_system_factor(&system))
-			writer->status = batten_fail(writer->context, BATTEN_INPUT,
-			                             "inverse fairing: the spacings of the table are too uneven "
-			                             "to solve for its offsets");
+			writer->status = batten_fail(
+				writer->context, BATTEN_INPUT,
+				"inverse fairing: the spacings of the table are too uneven "
+				"to solve for its offsets");
 	}
 	if (writer->status == BATTEN_OK) {
 		pass_operation(writer, PASS_ROWS);

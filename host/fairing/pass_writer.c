@@ -51,11 +51,11 @@ void pass_writer_begin(pass_writer *writer, batten_context *context, size_t valu
 	                    PASS_OPERATION_SIZE * sizeof *n->operations);
 	good = good && grow_pair(writer, (void **)&n->row_first, sizeof *n->row_first,
 	                         (void **)&n->row_target, sizeof *n->row_target, 0, &writer->row_room);
-	good = good && grow_pair(writer, (void **)&n->term_index, sizeof *n->term_index,
-	                         (void **)&n->term_factor, sizeof *n->term_factor, 0,
-	                         &writer->term_room);
-	good = good && grow(writer, (void **)&n->line_first, 0, &writer->line_room,
-	                    sizeof *n->line_first);
+	good = good &&
+	       grow_pair(writer, (void **)&n->term_index, sizeof *n->term_index,
+	                 (void **)&n->term_factor, sizeof *n->term_factor, 0, &writer->term_room);
+	good = good &&
+	       grow(writer, (void **)&n->line_first, 0, &writer->line_room, sizeof *n->line_first);
 	size_t room = writer->point_room;
 	good = good && grow(writer, (void **)&n->point_along, 0, &room, sizeof *n->point_along);
 	good = good && grow_pair(writer, (void **)&n->point_from, sizeof *n->point_from,
@@ -69,9 +69,9 @@ void pass_writer_begin(pass_writer *writer, batten_context *context, size_t valu
 
 void pass_numbers_release(batten_context *context, pass_program_numbers *numbers)
 {
-	void *memory[] = { numbers->operations,  numbers->row_first,   numbers->row_target,
-		               numbers->term_index,  numbers->line_first,  numbers->point_from,
-		               numbers->point_to,    numbers->term_factor, numbers->point_along,
+	void *memory[] = { numbers->operations, numbers->row_first,   numbers->row_target,
+		               numbers->term_index, numbers->line_first,  numbers->point_from,
+		               numbers->point_to,   numbers->term_factor, numbers->point_along,
 		               numbers->constants };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(context, memory[i]);

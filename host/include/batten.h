@@ -1456,11 +1456,12 @@ BATTEN_API batten_status batten_pass_create_line(batten_context *context, size_t
 BATTEN_API void batten_pass_destroy(batten_pass *pass);
 
 typedef struct batten_pass_facts {
-	size_t value_count; /* numbers a hull: nodes as in batten_hull_y_m(), then line ends off the
+	size_t value_count;  /* numbers a hull: nodes as in batten_hull_y_m(), then line ends off the
 	                       table; of a line its points */
-	size_t line_count;  /* pieces of lines that are faired */
+	size_t line_count;   /* pieces of lines that are faired */
 	size_t passed_count; /* pieces passed over: too short */
-	size_t term_count;  /* products of an iteration, those of fits left out */
+	size_t term_count;   /* products of an iteration, those of fits left out */
+	unsigned order, order_sections, vertices; /* as used */
 } batten_pass_facts;
 BATTEN_API batten_pass_facts batten_pass_describe(const batten_pass *pass);
 
@@ -1619,9 +1620,9 @@ typedef enum batten_fairing_stop {
 } batten_fairing_stop;
 typedef struct batten_fairing_pass {
 	batten_fairing_stop stop;
-	size_t line_count, passed_count; /* as in batten_pass_facts */
-	double cpu_seconds;              /* of the iterations and their rows */
-	char warning[256];               /* of what restore did; "" when nothing is to be said */
+	batten_pass_facts facts;
+	double cpu_seconds; /* of the iterations and their rows */
+	char warning[256];  /* of what restore did; "" when nothing is to be said */
 } batten_fairing_pass;
 BATTEN_API batten_fairing_pass batten_fairing_describe_pass(const batten_fairing *fairing);
 

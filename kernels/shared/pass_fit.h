@@ -9,8 +9,8 @@
 /* A line and the room of the work-item. */
 typedef struct pass_line {
 	int points, order, vertices;
-	GLOBAL const int *from, *to;  /* places in the state */
-	GLOBAL const scalar *along;   /* x of the points */
+	GLOBAL const int *from, *to; /* places in the state */
+	GLOBAL const scalar *along;  /* x of the points */
 	GLOBAL real *parameter, *band, *x, *y;
 } pass_line;
 
@@ -169,8 +169,8 @@ SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 		ROLLED
 		for (int j = 0; j < l->order; j++)
 			window[j] = l->x[s + j];
-		l->band[s] = spline_value(l->order, pass_last_knot(l), SPREAD((scalar)s),
-		                          SPREAD((scalar)s), window);
+		l->band[s] = spline_value(l->order, pass_last_knot(l), SPREAD((scalar)s), SPREAD((scalar)s),
+		                          window);
 	}
 	ROLLED
 	for (int i = 1; i < end; i++) {

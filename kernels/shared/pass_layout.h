@@ -13,7 +13,7 @@ enum {
 	PASS_ROWS = 0,
 	PASS_ROWS_IN_ORDER, /* rows that read what those before them wrote: triangular systems */
 	PASS_FLOOR,         /* values: below 0 they become 0 */
-	PASS_FIT,           /* lines: least squares with parameters by chord length, which depend on y */
+	PASS_FIT, /* lines: least squares with parameters by chord length, which depend on y */
 };
 
 /* An operation. */

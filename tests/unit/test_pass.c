@@ -19,9 +19,8 @@ static void test_identities(void **state)
 	for (size_t n = 0; n < 4; n++) {
 		batten_hull *hull = read_hull(*state, names[n]);
 		for (int m = 0; m < 2; m++) {
-			batten_fair_options options = by_method(m == 0 ? BATTEN_METHOD_FORWARD_APPROXIMATION
-			                                               : BATTEN_METHOD_INVERSE,
-			                                        3);
+			batten_fair_options options = by_method(
+				m == 0 ? BATTEN_METHOD_FORWARD_APPROXIMATION : BATTEN_METHOD_INVERSE, 3);
 			options.pass.order = 2;
 			batten_fairing *fairing = fair(*state, hull, &options);
 			assert_true(largest_change(hull, batten_fairing_faired(fairing)) == 0);
@@ -183,7 +182,7 @@ static void test_long_layout(void **state)
 	}
 	assert_int_equal(moved, 1);
 	/* The section at x = 0 has two points. */
-	assert_int_equal(batten_fairing_describe_pass(fairing).passed_count, 1);
+	assert_int_equal(batten_fairing_describe_pass(fairing).facts.passed_count, 1);
 	batten_pass_destroy(pass);
 	batten_fairing_destroy(fairing);
 	batten_hull_destroy(hull);
@@ -200,9 +199,8 @@ static void test_stops(void **state)
 	assert_true(count > 1 && count < 21);
 	assert_true(batten_fairing_rows(fairing)[count - 1].cn_pct <= 3);
 	batten_closeness closeness;
-	assert_int_equal(batten_hull_closeness(*state, batten_fairing_faired(fairing), hull,
-	                                       &closeness),
-	                 BATTEN_OK);
+	assert_int_equal(
+		batten_hull_closeness(*state, batten_fairing_faired(fairing), hull, &closeness), BATTEN_OK);
 	assert_true(closeness.cn_pct == batten_fairing_rows(fairing)[count - 1].cn_pct);
 	batten_fairing_destroy(fairing);
 	options.max_cn_pct = 0;

@@ -54,8 +54,9 @@ static batten_hull *distorted_wigley(batten_context *context, struct printed *ta
 				cell = wigley(stations[i], z[k]);
 			y[k * STATIONS + i] = i == 6 && k == WATERLINES - 1 ? 0.809 : cell;
 		}
-	const batten_hull_table given = { "distorted Wigley", 16, 1, STATIONS, WATERLINES, x, z, y,
-		                              NULL };
+	const batten_hull_table given = {
+		"distorted Wigley", 16, 1, STATIONS, WATERLINES, x, z, y, NULL
+	};
 	batten_hull *hull = NULL;
 	assert_int_equal(batten_hull_create(context, &given, &hull), BATTEN_OK);
 	return hull;
@@ -235,8 +236,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(npl_by_fit, make_context, end_context),
 		cmocka_unit_test_setup_teardown(npl_by_approximation, make_context, end_context),
 		cmocka_unit_test_setup_teardown(highspeed_craft, make_context, end_context),
-		cmocka_unit_test_setup_teardown(table_8_1_is_not_reproducible, make_context,
-		                                end_context),
+		cmocka_unit_test_setup_teardown(table_8_1_is_not_reproducible, make_context, end_context),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
