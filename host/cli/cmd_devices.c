@@ -129,7 +129,7 @@ static batten_status test_device(batten_context *context, size_t index, bool as_
 	if (status != BATTEN_OK)
 		return cli_failure("selftest", context, status);
 	batten_status worst = BATTEN_OK;
-	for (size_t t = 0; t < count && t < 8; t++) {
+	for (size_t t = 0; t < count && t < 16; t++) {
 		report_test(index, &tests[t], as_json, list);
 		if (tests[t].result == BATTEN_SELFTEST_FAILED)
 			worst = BATTEN_KERNEL;
