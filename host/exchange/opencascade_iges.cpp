@@ -7,6 +7,7 @@
 #include <IGESControl_Writer.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESData_IGESWriter.hxx>
+#include <IGESData_TransfEntity.hxx>
 #include <IGESGeom_BSplineSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
@@ -16,6 +17,7 @@
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColStd_HArray2OfReal.hxx>
 #include <TColgp_HArray2OfXYZ.hxx>
+#include <gp_GTrsf.hxx>
 
 namespace opencascade_module
 {
@@ -118,6 +120,22 @@ bool is_whole_range(const IGESGeom_BSplineSurface &s)
 	return is_near(s.VMin(), s.UMax()) || is_near(s.UMax(), s.VMin());
 }
 
+/* A point where the matrix of the entity puts it, the matrix of that matrix after it, and so on:
+ * OpenCASCADE stops at the first. */
+gp_XYZ moved(const IGESData_IGESEntity &entity, gp_XYZ point)
+{
+	enum { MATRICES_MOST = 64 };
+	const IGESData_IGESEntity *at = &entity;
+	for (int n = 0; at->HasTransf(); n++) {
+		if (n == MATRICES_MOST)
+			throw refusal{ "has matrices that move matrices without end" };
+		const Handle(IGESData_TransfEntity) matrix = at->Transf();
+		matrix->Value().Transforms(point);
+		at = matrix.get();
+	}
+	return point;
+}
+
 void take_net(const IGESGeom_BSplineSurface &s, double times, double by, net_arrays &out)
 {
 	out.order_u = static_cast<size_t>(s.DegreeU()) + 1;
@@ -131,7 +149,7 @@ void take_net(const IGESGeom_BSplineSurface &s, double times, double by, net_arr
 		out.knots_v.push_back(s.KnotV(j));
 	for (int j = 0; j <= s.UpperIndexV(); j++) {
 		for (int i = 0; i <= s.UpperIndexU(); i++) {
-			const gp_Pnt pole = s.HasTransf() ? s.TransformedPole(i, j) : s.Pole(i, j);
+			const gp_XYZ pole = moved(s, s.Pole(i, j).XYZ());
 			for (int c = 1; c <= 3; c++)
 				out.poles.push_back(pole.Coord(c) * times / by);
 			out.weights.push_back(s.Weight(i, j));
@@ -151,7 +169,9 @@ const char *iges_fate(IGESControl_Reader &reader, const Interface_Graph &graph,
 		const Handle(IGESData_IGESEntity)
 			entity = Handle(IGESData_IGESEntity)::DownCast(user.Value());
 		const int type = entity.IsNull() ? 0 : entity->TypeNumber();
-		if (type == 402) /* a group */
+		if (!entity.IsNull() && entity->HasTransf())
+			return "moved by an entity it is part of";
+		if (type == 402 || type == 142) /* a group; a boundary, of a trimmed surface */
 			continue;
 		const Handle(IGESGeom_TrimmedSurface)
 			trimmed = Handle(IGESGeom_TrimmedSurface)::DownCast(entity);
