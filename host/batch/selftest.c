@@ -3,6 +3,7 @@
 #include "batch/pass_engine.h"
 #include "batch/search_engine.h"
 #include "batch/surface_engine.h"
+#include "batch/variants_engine.h"
 
 static batten_status test_offsets(batten_context *context, size_t index,
                                   const batten_device *device, batten_precision precision,
@@ -72,6 +73,15 @@ static batten_status test_passes(batten_context *context, size_t index, const ba
 	return pass_engine_open(&plan, index, device, &engine, result);
 }
 
+/* Of one precision only. */
+static batten_status test_variants(batten_context *context, size_t index,
+                                   const batten_device *device, batten_selftest *result)
+{
+	const variants_plan plan = { .context = context };
+	batch_engine *engine = NULL;
+	return variants_engine_open(&plan, index, device, &engine, result);
+}
+
 batten_status batten_device_selftest(batten_context *context, size_t index,
                                      batten_selftest *results, size_t capacity, size_t *count)
 {
@@ -84,12 +94,16 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 		batten_context *, size_t, const batten_device *, batten_precision,
 		batten_selftest *) = { test_search, test_textbook, test_surfaces, test_nets, test_passes };
 	enum { PRECISIONS = 2, TESTS = 5 };
-	*count = (size_t)PRECISIONS * TESTS;
-	for (size_t t = 0; t < *count && t < capacity; t++) {
+	*count = (size_t)PRECISIONS * TESTS + 1;
+	for (size_t t = 0; t + 1 < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,
 		                                                   precisions[t % PRECISIONS], &results[t]);
 		if (opened == BATTEN_MEMORY)
 			return opened;
 	}
-	return BATTEN_OK;
+	if (capacity < *count)
+		return BATTEN_OK;
+	return test_variants(context, index, &device, &results[*count - 1]) == BATTEN_MEMORY
+	           ? BATTEN_MEMORY
+	           : BATTEN_OK;
 }

@@ -1339,6 +1339,73 @@ BATTEN_API batten_status batten_table_write(batten_context *context, const batte
                                             const char *path);
 
 /* ------------------------------------------------------------------------------------------------
+ * Many hulls of one table
+ * --------------------------------------------------------------------------------------------- */
+
+/* Where a batch of hulls runs. In f64. */
+typedef struct batten_batch_options {
+	size_t struct_size;
+	int device;          /* an index of batten_device_count(), or AUTO, REFERENCE */
+	unsigned lanes;      /* hulls a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
+	unsigned work_group; /* work-items a hull is shared by; 0 chooses */
+} batten_batch_options;
+BATTEN_API void batten_batch_options_default(batten_batch_options *options);
+
+/* batten_hull_hydrostatics() of count hulls that differ in half-breadths only: table gives stations,
+ * waterlines, lbp and points off the grid. y_m [count][waterlines][stations], nodes likewise or NULL:
+ * those of the table; a '?' counts with the half-breadth given. out is the caller's,
+ * [count][draft_count]. The result of a hull does not depend on the others nor (when strict) on what ran
+ * it, and is that of batten_hull_hydrostatics() within rounding. Hulls whose lines have gaps, tables with
+ * knuckles or points inside the grid, and other rules than the spline are taken one by one, on the host.
+ * options, batch and run may be NULL. Errors: as batten_hull_hydrostatics(), USAGE (a half-breadth
+ * below 0 or not finite), DEVICE, KERNEL; out is then not to be used. */
+BATTEN_API batten_status batten_hull_hydrostatics_batch(
+	batten_context *context, const batten_hull *table, const batten_hydrostatics_options *options,
+	const batten_batch_options *batch, size_t count, const double *y_m, const uint8_t *nodes,
+	size_t draft_count, const double *drafts_m, batten_hydrostatics *out, batten_run *run);
+
+/* What differs from row to row, as in batten_vary_options. */
+typedef struct batten_vary_row {
+	double dcp_pct, dlcb_pct, dp_fore_pct, dp_aft_pct;
+} batten_vary_row;
+
+/* What became of a row. */
+typedef struct batten_vary_result {
+	batten_status status;       /* OK: there is a variant */
+	char reason[120];           /* one line when there is none */
+	unsigned passes;            /* how many times the variant was made */
+	double cp, lcb_pct_lbp_fwd; /* of the variant, at the parent's draft */
+} batten_vary_result;
+
+/* batten_hull_vary() of many rows and the hydrostatics of every variant, in one go: count variants of
+ * one parent by swing, one-minus-prismatic, lackenby or moor; options give the method and what all rows
+ * have in common (its dcp, dlcb, dp_fore, dp_aft are not read). results [count]. y_m and nodes, both
+ * [count][waterlines][stations] on the parent's table, and out [count][draft_count] are the caller's,
+ * each may be NULL; of a row that failed all are NaN and OUTSIDE. Agrees with batten_hull_vary() and
+ * batten_hull_hydrostatics() within 1e-9 of each value; bit for bit alike whatever the lanes, the
+ * batch, the order and (when strict) the device. A row that fails stops no other; batten_hull_vary() of
+ * that row tells what can be reached. Moor's method, thesis, other rules than the spline, layouts with
+ * points off the grid, and rows whose lines get gaps are worked one by one, on the host.
+ * hydrostatics, batch and run may be NULL. Returns INCOMPLETE when a row failed. Errors: USAGE, INPUT (a
+ * parent the method cannot take), DEVICE, KERNEL, MEMORY. */
+typedef struct batten_variants {
+	size_t count;
+	const batten_vary_row *rows;
+	size_t draft_count;
+	const double *drafts_m;
+	batten_vary_result *results;
+	double *y_m;
+	uint8_t *nodes;
+	batten_hydrostatics *out;
+} batten_variants;
+BATTEN_API batten_status batten_hull_vary_measure(batten_context *context,
+                                                  const batten_hull *parent,
+                                                  const batten_vary_options *options,
+                                                  const batten_hydrostatics_options *hydrostatics,
+                                                  const batten_batch_options *batch,
+                                                  const batten_variants *variants, batten_run *run);
+
+/* ------------------------------------------------------------------------------------------------
  * The pattern search over the control net of a surface, many at a time
  * --------------------------------------------------------------------------------------------- */
 

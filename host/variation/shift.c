@@ -66,26 +66,47 @@ static double over_chord(const variation_shift *shift, double x_m)
 	return (spline_value(shift->swing, x_m) - aft - part * (fore - aft)) / middle;
 }
 
-static double swing_slope(const variation_shift *shift, double x_m)
+/* By one metre of factor. */
+static double unit_slope(const variation_shift *shift, double x_m)
 {
 	const variation_span *span = &shift->span;
 	const double chord = (chord_end(shift, span->fore_m) - chord_end(shift, span->aft_m)) /
 	                     (span->fore_m - span->aft_m);
-	return shift->swing_factor_m * (spline_slope(shift->swing, x_m) - chord) /
-	       spline_value(shift->swing, span->middle_m);
+	return (spline_slope(shift->swing, x_m) - chord) / spline_value(shift->swing, span->middle_m);
 }
 
-/* The slope of a cubic is least or greatest at the ends of an interval or where it bends not. */
+/* Where the slope of the curve may be least or greatest: at the ends of interval i, or where it bends
+ * not. */
+static void slope_places(const struct spline *curve, size_t i, double places[2])
+{
+	places[0] = places[1] = curve->x[i];
+	if (i + 1 < curve->count && curve->second[i] * curve->second[i + 1] < 0)
+		places[1] += (curve->x[i + 1] - curve->x[i]) * curve->second[i] /
+		             (curve->second[i] - curve->second[i + 1]);
+}
+
+void variation_shift_swing_slopes(const variation_shift *shift, double *least, double *most)
+{
+	*least = INFINITY;
+	*most = -INFINITY;
+	for (size_t i = 0; i < shift->swing->count; i++) {
+		double places[2];
+		slope_places(shift->swing, i, places);
+		for (size_t k = 0; k < 2; k++) {
+			*least = fmin(*least, unit_slope(shift, places[k]));
+			*most = fmax(*most, unit_slope(shift, places[k]));
+		}
+	}
+}
+
 static bool swing_folds(const variation_shift *shift, double *x_m)
 {
 	const struct spline *curve = shift->swing;
 	for (size_t i = 0; i < curve->count; i++) {
-		double places[2] = { curve->x[i], curve->x[i] };
-		if (i + 1 < curve->count && curve->second[i] * curve->second[i + 1] < 0)
-			places[1] += (curve->x[i + 1] - curve->x[i]) * curve->second[i] /
-			             (curve->second[i] - curve->second[i + 1]);
+		double places[2];
+		slope_places(curve, i, places);
 		for (size_t k = 0; k < 2; k++)
-			if (!(1 + swing_slope(shift, places[k]) > 0)) {
+			if (!(1 + shift->swing_factor_m * unit_slope(shift, places[k]) > 0)) {
 				*x_m = places[k];
 				return true;
 			}
@@ -121,9 +142,6 @@ static struct lever one_minus_lever(const variation_half *half)
 	return (struct lever){ full * (1 - 2 * half->lever) / (1 - full), 0 };
 }
 
-/* A body shorter than this part of the length is none. */
-#define BODY_PART 1e-9
-
 /* Where the section amidships stands after the move. Two halves that run into each other have no
  * body, which variation_shift_folds() tells. */
 static void find_body(variation_shift *shift)
@@ -135,7 +153,7 @@ static void find_body(variation_shift *shift)
 	shift->body_to_m = span->middle_m + fore * (span->fore_m - span->middle_m);
 	shift->body = span->parallel_aft > 0 || span->parallel_fore > 0 ||
 	              fabs(shift->body_to_m - shift->body_from_m) >
-	                  BODY_PART * (span->fore_m - span->aft_m);
+	                  VARIATION_BODY_PART * (span->fore_m - span->aft_m);
 }
 
 bool variation_shift_one_minus(const struct spline *curve, const variation_span *span,
@@ -196,6 +214,36 @@ bool variation_shift_lackenby(const struct spline *curve, const variation_span *
 	return true;
 }
 
+static variation_half_numbers half_numbers(const variation_half *half, double length_m,
+                                           bool lackenby)
+{
+	const struct lever lever = lackenby ? lackenby_lever(half) : one_minus_lever(half);
+	return (variation_half_numbers){ .parallel = half->parallel,
+		                             .length_m = length_m,
+		                             .fullness = half->fullness,
+		                             .lever = lever.b,
+		                             .body_lever = lever.d,
+		                             .by_fullness = lackenby ? 0 : 1 / (1 - half->fullness),
+		                             .by_body = lackenby ? 1 / (1 - half->parallel) : 0,
+		                             .linear = lackenby ? 1 / lackenby_room(half) : 0 };
+}
+
+bool variation_shift_numbers(const struct spline *curve, const variation_span *span, bool lackenby,
+                             variation_numbers *out)
+{
+	const variation_halves halves = variation_halves_of(curve, span);
+	if (lackenby ? !(lackenby_room(&halves.aft) > 1e-9 && lackenby_room(&halves.fore) > 1e-9)
+	             : !(halves.aft.fullness < 1 && halves.fore.fullness < 1))
+		return false;
+	*out = (variation_numbers){
+		.aft = half_numbers(&halves.aft, span->middle_m - span->aft_m, lackenby),
+		.fore = half_numbers(&halves.fore, span->fore_m - span->middle_m, lackenby),
+		.fullness = halves.fullness,
+		.centre = halves.centre,
+	};
+	return true;
+}
+
 /* ------------------------------------------------------------------------------------------------
  * Any shift
  * --------------------------------------------------------------------------------------------- */
@@ -237,7 +285,8 @@ bool variation_shift_folds(const variation_shift *shift, double *x_m)
 	if (half_folds(&shift->fore))
 		return true;
 	*x_m = span->middle_m;
-	return shift->body_to_m - shift->body_from_m < -BODY_PART * (span->fore_m - span->aft_m);
+	return shift->body_to_m - shift->body_from_m <
+	       -VARIATION_BODY_PART * (span->fore_m - span->aft_m);
 }
 
 batten_status variation_shift_curve(batten_context *context, const variation_shift *shift,

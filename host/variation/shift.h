@@ -62,6 +62,27 @@ bool variation_shift_one_minus(const struct spline *curve, const variation_span 
 bool variation_shift_lackenby(const struct spline *curve, const variation_span *span,
                               const variation_change *change, variation_shift *out);
 
+/* The numbers of both formulas that do not depend on what is asked for: half-lengths, levers of a change
+ * of fullness and of parallel body, and the shift they make,
+ *   level = by_fullness change + by_body body,
+ *   linear = linear (change - level (1 - fullness)). */
+typedef struct variation_half_numbers {
+	double parallel, length_m, fullness, lever, body_lever, by_fullness, by_body, linear;
+} variation_half_numbers;
+typedef struct variation_numbers {
+	variation_half_numbers aft, fore;
+	double fullness, centre;
+} variation_numbers;
+/* False where the curve leaves the formulas nothing to work on. */
+bool variation_shift_numbers(const struct spline *curve, const variation_span *span, bool lackenby,
+                             variation_numbers *out);
+
+/* Least and greatest slope d(dx)/dx of a swing by one metre of factor. */
+void variation_shift_swing_slopes(const variation_shift *shift, double *least, double *most);
+
+/* A parallel body shorter than this part of the length is none. */
+#define VARIATION_BODY_PART 1e-9
+
 double variation_shift_at(const variation_shift *shift, double x_m);
 
 /* True where two sections would change places, 1 + d(dx)/dx <= 0; *x_m gets where. */

@@ -88,4 +88,11 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 
 #endif
 
+/* a * b + c rounded once. Correct on every device, so strict arithmetic may use it. */
+#if defined(BATTEN_DIALECT_C) && !BATTEN_DOUBLE
+#define FUSED(a, b, c) fmaf(a, b, c)
+#else
+#define FUSED(a, b, c) fma(a, b, c)
+#endif
+
 #endif

@@ -5,13 +5,6 @@
 #include "dialect.h"
 #include "surface_layout.h"
 
-/* a * b + c rounded once. Correct on every device, so strict arithmetic may use it. */
-#if defined(BATTEN_DIALECT_C) && !BATTEN_DOUBLE
-#define FUSED(a, b, c) fmaf(a, b, c)
-#else
-#define FUSED(a, b, c) fma(a, b, c)
-#endif
-
 #if BATTEN_DOUBLE
 #define SURFACE_ANGLE LITERAL(SURFACE_ANGLE_F64)
 #else

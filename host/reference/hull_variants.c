@@ -1,0 +1,43 @@
+/* The plain C path of kernels/hull_variants.cl. */
+#include "reference/hull_variants.h"
+
+#include <stddef.h>
+
+#define BATTEN_DOUBLE 1
+#define BATTEN_DIALECT_C
+#include "shared/dialect.h"
+
+/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
+ * times slower with the same result. All is inlined into one function for each, formulas too. */
+#define INLINED static inline __attribute__((always_inline))
+#undef SHARED_FUNCTION
+#define SHARED_FUNCTION INLINED
+#include "shared/variants_course.h"
+
+INLINED void work_hull(const int32_t *shape, const int32_t *lists, const double *tables,
+                       const double *asked, double *y, double *out, double *room)
+{
+	const variants_state s = variants_state_in(shape, lists, tables, room, 0);
+	variants_run_group(&s, asked, y, out);
+}
+
+#if defined(__x86_64__)
+__attribute__((target("avx2,fma"))) static void
+work_with_fma(const int32_t *shape, const int32_t *lists, const double *tables, const double *asked,
+              double *y, double *out, double *room)
+{
+	work_hull(shape, lists, tables, asked, y, out, room);
+}
+#endif
+
+void reference_hull_variants(const int32_t *shape, const int32_t *lists, const double *tables,
+                             const double *asked, double *y, double *out, double *room)
+{
+#if defined(__x86_64__)
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+		work_with_fma(shape, lists, tables, asked, y, out, room);
+		return;
+	}
+#endif
+	work_hull(shape, lists, tables, asked, y, out, room);
+}
