@@ -8,6 +8,8 @@
 const bench_entry bench_entries[] = {
 	{ "search.multilevel", "whole pattern searches, OpenCL against the plain C path",
 	  bench_search_multilevel },
+	{ "search.textbook", "the multilevel search against the thesis's pattern search",
+	  bench_search_textbook },
 	{ "search.net", "searches over control nets, OpenCL against the plain C path",
 	  bench_search_net },
 	{ "surface.curvature_grid",

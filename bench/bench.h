@@ -33,6 +33,7 @@ typedef struct bench_entry {
 extern const bench_entry bench_entries[];
 
 batten_status bench_search_multilevel(const bench_settings *settings);
+batten_status bench_search_textbook(const bench_settings *settings);
 batten_status bench_search_net(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
 batten_status bench_surface_energy(const bench_settings *settings);

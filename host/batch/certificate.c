@@ -80,8 +80,8 @@ static bool term_of(const certifier *c, size_t node, double half_beam_m, grid_st
 	return true;
 }
 
-/* The objective, and its gradient at every node. */
-static double differentiate(certifier *c, double half_beam_m)
+/* The objective, its part of fairness, and its gradient at every node. */
+static double differentiate(certifier *c, double half_beam_m, double *fairness)
 {
 	const size_t nodes = c->plan->node_count;
 	const double *y = array_of(c, SEARCH_ARRAY_Y);
@@ -99,12 +99,12 @@ static double differentiate(certifier *c, double half_beam_m)
 		jet term;
 		if (!term_of(c, node, half_beam_m, &stencil, places, &term))
 			continue;
-		sum += term.value;
+		*fairness += term.value;
 		for (size_t n = 0; n < GRID_STENCIL_NODES; n++)
 			for (int v = 0; v < JET_VARIABLES; v++)
 				c->gradient[places[n]] += term.first[v] * stencil.weight[v][n];
 	}
-	return sum;
+	return sum + *fairness;
 }
 
 /* Numbers the nodes that are free: not fixed, and not held at a bound by the gradient. */
@@ -259,7 +259,8 @@ batten_status certifier_run(certifier *c, const batten_search_problem *problem, 
 	*out = (batten_certificate){ .gap_estimate = NAN };
 	memset(c->arrays, 0, plan->node_count * SEARCH_ARRAY_COUNT * sizeof *c->arrays);
 	search_pack(plan, &ended, 0, 1, c->arrays, settings);
-	out->objective = differentiate(c, problem->half_beam_m);
+	out->objective = differentiate(c, problem->half_beam_m, &out->fairness);
+	out->fairness = problem->w1 > 0.0 ? out->fairness / problem->w1 : NAN;
 	out->free_count = number_unknowns(c);
 	double square = 0.0;
 	for (size_t n = 0; n < plan->node_count; n++)

@@ -50,9 +50,9 @@ static size_t order_sound(const batch *b, size_t count, size_t *order)
 			order[sound++] = p;
 			continue;
 		}
-		b->certificates[p] = (batten_certificate){ .objective = NAN,
-			                                       .gradient_per_m = NAN,
-			                                       .gap_estimate = NAN };
+		b->certificates[p] = (batten_certificate){
+			.objective = NAN, .fairness = NAN, .gradient_per_m = NAN, .gap_estimate = NAN
+		};
 		(void)snprintf(b->certificates[p].message, sizeof b->certificates[p].message, "%s", fault);
 	}
 	return sound;

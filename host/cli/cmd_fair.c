@@ -18,6 +18,7 @@ static const cli_command command = {
 		"  batten fair data/hulls/npl_parent.csv --out demo\n"
 		"  batten fair hull.csv --w1 1 --w2 1e4 --max-distance 5mm --lock waterline:0.24\n"
 		"  batten fair data/hulls/npl_parent.csv --fairness mean --longitudinal 4\n"
+		"  batten fair data/hulls/npl_parent.csv --front 1:1e6:25 --out front\n"
 		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n",
@@ -218,6 +219,8 @@ static batten_status run(fair_job *job)
 		(void)fprintf(stderr, "fairing %s: %zu stations, %zu waterlines ...\n",
 		              batten_hull_name(job->hull), batten_hull_station_count(job->hull),
 		              batten_hull_waterline_count(job->hull));
+	if (job->request->front)
+		return fair_front(job, folder);
 	const batten_status faired = batten_hull_fair(job->context, job->hull, options, &job->fairing);
 	if (faired != BATTEN_OK && faired != BATTEN_INCOMPLETE)
 		return cli_failure("fair", job->context, faired);
@@ -267,6 +270,8 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		  "keel,stern,stem: the surface leaves the centreplane square to it there" },
 		{ "w1", CLI_NUMBER, &request->w1, "X", "weight of fairness, dimensionless" },
 		{ "w2", CLI_NUMBER, &request->w2, "Y", "weight of closeness, dimensionless" },
+		{ "front", CLI_TEXT, &request->front, "LOW:HIGH:COUNT",
+		  "fair nothing: sweep w2/w1 and write fairness over closeness as front.csv, .json, .svg" },
 		{ "max-distance", CLI_TEXT, &request->max_distance, "D",
 		  "keep every offset this close to the smoothed hull (1% of the half-beam; or 0.5mm)" },
 		{ "lock", CLI_TEXT, &request->lock, "LIST",

@@ -32,8 +32,7 @@ static batten_status join(char *path, size_t size, const char *folder, const cha
 	return BATTEN_OK;
 }
 
-/* The folder and those above it; *made tells whether the last of them is new. */
-static batten_status make_folders(const char *folder, bool *made)
+batten_status fair_folder_make(const char *folder, bool *made)
 {
 	char path[PATH_MAX];
 	if (snprintf(path, sizeof path, "%s", folder) >= (int)sizeof path) {
@@ -182,7 +181,7 @@ static batten_status make_and_move(fair_job *job, const char *folder)
 batten_status fair_files_write(fair_job *job, const char *folder)
 {
 	bool made = false;
-	batten_status status = make_folders(folder, &made);
+	batten_status status = fair_folder_make(folder, &made);
 	if (status != BATTEN_OK)
 		return status;
 	/* An interrupt in the second this takes would leave half of it behind, and save nothing. */

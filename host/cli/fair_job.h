@@ -11,6 +11,7 @@ enum { FAIR_WARNING_LIMIT = 16, FAIR_WARNING_SIZE = 400, FAIR_LOCK_LIMIT = 256 }
 typedef struct fair_request {
 	cli_common common;
 	const char *hull_path, *out, *method, *search, *variables, *fairness;
+	const char *front; /* NULL: not given */
 	const char *max_distance, *lock, *lower_path, *upper_path;
 	const char *net, *order, *tangents, *rounded; /* NULL: not given */
 	double w1, w2, longitudinal, transverse;      /* NaN: not given */
@@ -53,6 +54,13 @@ typedef struct fair_job {
 	size_t warning_count;
 	char warnings[FAIR_WARNING_LIMIT][FAIR_WARNING_SIZE];
 } fair_job;
+
+/* A folder and those above it; *made tells whether the last of them is new. Errors: IO. */
+batten_status fair_folder_make(const char *folder, bool *made);
+
+/* Sweeps the request's front in place of fairing and writes its files. INCOMPLETE: a search met its
+ * limit. */
+batten_status fair_front(fair_job *job, const char *folder);
 
 /* Understands the request for a hull that has been read. */
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,

@@ -151,6 +151,20 @@ batten_status fairing_box_create(batten_context *context, const batten_hull *smo
 	return BATTEN_OK;
 }
 
+batten_search_problem fairing_problem(const batten_hull *smoothed, const fairing_box *box,
+                                      double w1, double w2)
+{
+	return (batten_search_problem){ .nodes = smoothed->nodes,
+		                            .start_m = smoothed->y_m,
+		                            .target_m = smoothed->y_m,
+		                            .lower_m = box->lower_m,
+		                            .upper_m = box->upper_m,
+		                            .closeness_weight = box->closeness_weight,
+		                            .w1 = w1,
+		                            .w2 = w2,
+		                            .half_beam_m = batten_hull_half_beam_m(smoothed) };
+}
+
 void fairing_box_release(batten_context *context, fairing_box *box)
 {
 	batten_release(context, box->lower_m);

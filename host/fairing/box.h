@@ -28,6 +28,10 @@ batten_status fairing_locks_create(batten_context *context, const batten_hull *h
 batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,
                                  const batten_fair_options *options, const uint8_t *locked,
                                  double distance_m, fairing_box *out);
+
+/* The search that fairs the hull with these weights; borrows hull and box. */
+batten_search_problem fairing_problem(const batten_hull *smoothed, const fairing_box *box,
+                                      double w1, double w2);
 void fairing_box_release(batten_context *context, fairing_box *box);
 
 #endif

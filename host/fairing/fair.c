@@ -150,8 +150,8 @@ static batten_status work(batten_fairing *fairing, const batten_fair_options *op
 	}
 }
 
-static batten_status run(batten_fairing *fairing, const batten_hull *hull,
-                         const batten_fair_options *options)
+batten_status fairing_prepare(batten_fairing *fairing, const batten_hull *hull,
+                              const batten_fair_options *options)
 {
 	batten_context *context = fairing->context;
 	batten_status status = check_hull(context, hull);
@@ -161,11 +161,20 @@ static batten_status run(batten_fairing *fairing, const batten_hull *hull,
 		status = prepare(fairing, hull, options);
 	if (status != BATTEN_OK)
 		return status;
-	fairing->facts.weights_by_noise = !options->weights_given;
 	fairing->facts.max_distance_m = options->max_distance_m >= 0.0
 	                                    ? options->max_distance_m
 	                                    : options->max_distance_part *
 	                                          batten_hull_half_beam_m(fairing->smoothed);
+	return BATTEN_OK;
+}
+
+static batten_status run(batten_fairing *fairing, const batten_hull *hull,
+                         const batten_fair_options *options)
+{
+	batten_status status = fairing_prepare(fairing, hull, options);
+	if (status != BATTEN_OK)
+		return status;
+	fairing->facts.weights_by_noise = !options->weights_given;
 	status = work(fairing, options);
 	return status == BATTEN_OK || status == BATTEN_INCOMPLETE ? finish(fairing) : status;
 }

@@ -58,17 +58,8 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	batten_search_options chosen_search = options->search;
 	chosen_search.fairness = options->fairness;
 	for (size_t i = 0; i < count; i++)
-		problems[i] = (batten_search_problem){
-			.nodes = hull->nodes,
-			.start_m = hull->y_m,
-			.target_m = hull->y_m,
-			.lower_m = box->lower_m,
-			.upper_m = box->upper_m,
-			.closeness_weight = box->closeness_weight,
-			.w1 = options->weights_given ? options->w1 : 1.0,
-			.w2 = options->weights_given ? options->w2 : discrepancy_ratio(i),
-			.half_beam_m = batten_hull_half_beam_m(hull),
-		};
+		problems[i] = fairing_problem(hull, box, options->weights_given ? options->w1 : 1.0,
+		                              options->weights_given ? options->w2 : discrepancy_ratio(i));
 	double *y = batten_allocate(context, count, nodes * sizeof *y);
 	if (!y)
 		return BATTEN_MEMORY;
@@ -80,6 +71,7 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 		const batten_status judged = batten_search_certify_batch(
 			context, &grid, 1, &problems[chosen], &chosen_search, y + chosen * nodes,
 			&fairing->certificate);
+		fairing->certified = judged == BATTEN_OK;
 		if (judged != BATTEN_OK)
 			status = judged;
 		fairing->result = results[chosen];

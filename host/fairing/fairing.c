@@ -48,7 +48,7 @@ const batten_search_result *batten_fairing_result(const batten_fairing *fairing)
 
 const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing)
 {
-	return fairing->faired_surface ? NULL : &fairing->certificate;
+	return fairing->certified ? &fairing->certificate : NULL;
 }
 
 const batten_run *batten_fairing_run(const batten_fairing *fairing)

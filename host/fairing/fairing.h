@@ -12,7 +12,8 @@ struct batten_fairing {
 	batten_replacement *replacements;
 	size_t replacement_count;
 	batten_search_result result;
-	batten_certificate certificate; /* of result, with offsets */
+	bool certified;                 /* by a search over offsets */
+	batten_certificate certificate; /* of result */
 	batten_run run;
 	batten_fairing_facts facts;
 	batten_surface *fitted_surface, *faired_surface; /* NULL with offsets */
@@ -22,8 +23,12 @@ struct batten_fairing {
 	batten_fairing_pass pass;
 };
 
-/* The search over a fairing that is prepared: smoothed, faired (a copy of it), locked, and of the
- * facts noise_m and max_distance_m are there. What they write: the given half-breadths of faired,
+/* Checks hull and options; makes locked, input, smoothed and faired (both the same), and of the facts
+ * noise_m and max_distance_m. Errors: those of batten_hull_fair but for the search's. */
+batten_status fairing_prepare(batten_fairing *fairing, const batten_hull *hull,
+                              const batten_fair_options *options);
+
+/* The search over a fairing that is prepared. What they write: the given half-breadths of faired,
  * result, run and the other facts. Return BATTEN_INCOMPLETE when a search met its limit, the chosen
  * one or another. */
 batten_status fair_offsets(batten_fairing *fairing, const batten_fair_options *options);

@@ -456,6 +456,7 @@ BATTEN_API batten_status batten_search_batch(batten_context *context, const batt
  * objective is not convex, so all of it is local: it knows nothing of other minima. */
 typedef struct batten_certificate {
 	double objective;      /* F at y, in double */
+	double fairness;       /* the sum of fairness dS, without w1; NaN where w1 is 0 */
 	double gradient_per_m; /* norm of the projected gradient: dF/dy over the free offsets */
 	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
 	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
@@ -1666,7 +1667,7 @@ BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairin
 BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
 BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
 BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
-/* Of the result; NULL with NET. */
+/* Of a search over OFFSETS; NULL of everything else. */
 BATTEN_API const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing);
 BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
 
@@ -1720,6 +1721,27 @@ typedef struct batten_fairing_net {
 	size_t kept_count;               /* positive offsets that kept their number */
 } batten_fairing_net;
 BATTEN_API batten_fairing_net batten_fairing_describe_net(const batten_fairing *fairing);
+
+/* One way to weigh fairness against closeness, and what it gives (thesis, conclusions: decisions by
+ * several objectives). */
+typedef struct batten_front_point {
+	double ratio;               /* w2/w1 */
+	double fairness;            /* the sum of fairness dS of the faired hull */
+	batten_closeness closeness; /* to the smoothed hull */
+	double gap_estimate;        /* of the search, as in batten_certificate */
+	bool dominated; /* another point is no worse in fairness and closeness_m4, better in one */
+	batten_search_result result;
+} batten_front_point;
+
+/* Sweeps w2/w1 from ratio_low to ratio_high, equal factors apart, in one batch of searches over the
+ * offsets: the fairness-closeness front of a hull. points: the caller's, count of them, ratios
+ * ascending. options as for batten_hull_fair, with OFFSETS and without weights; NULL: the default.
+ * 0 < ratio_low < ratio_high, both 1e-100 .. 1e100; count 2 .. 4096. Returns INCOMPLETE when a search
+ * met its iteration limit. Errors: those of batten_hull_fair. */
+BATTEN_API batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
+                                           const batten_fair_options *options, double ratio_low,
+                                           double ratio_high, size_t count,
+                                           batten_front_point *points);
 
 /* ------------------------------------------------------------------------------------------------
  * Sweeps: a plan of many designs, run into a database
@@ -1808,6 +1830,12 @@ BATTEN_API batten_status batten_picture_lines(batten_context *context, const bat
 BATTEN_API batten_status batten_picture_curves(batten_context *context, const batten_points *points,
                                                size_t count, const batten_curve *const *curves,
                                                const char *path);
+
+/* A front: fairness over the root mean square change, as SVG. count 2 or more. Errors: USAGE, IO,
+ * MEMORY. */
+BATTEN_API batten_status batten_picture_front(batten_context *context, const char *name,
+                                              size_t count, const batten_front_point *points,
+                                              const char *path);
 
 /* Curves of form: draft upwards, every quantity on one scale of 0 to 10 by a power of ten that the
  * legend states (Letcher 11.1). count >= 2 rows of ascending draft. Errors: USAGE, IO, MEMORY. */

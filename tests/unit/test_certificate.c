@@ -80,6 +80,10 @@ static void test_gradient_is_the_oracles(void **state)
 		assert_int_equal(found.free_count, count);
 		assert_true(fabs(found.objective - objective) <= 1e-12 * objective);
 		assert_true(fabs(found.gradient_per_m - norm) <= 1e-9 * norm);
+		oracle_energies energies;
+		assert_true(oracle_energy(known.nx, known.nz, known.x, known.z, y, known.nodes, &energies));
+		assert_true(fabs(found.fairness - (double)energies.bending) <=
+		            1e-12 * (double)energies.bending);
 		free(gradient);
 		free(y);
 		search_case_close(&c);

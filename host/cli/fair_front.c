@@ -1,0 +1,157 @@
+/* batten fair --front: the fairness-closeness front of a hull. */
+#include "fair_job.h"
+
+#include "json_out.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 11 };
+static const char *const columns[COLUMNS] = {
+	"ratio_w2_w1", "fairness",   "closeness_m4", "cn_pct",    "cn_max_m",  "cn_rms_m",
+	"objective",   "iterations", "gap_estimate", "converged", "dominated",
+};
+
+static void put_row(const batten_front_point *point, double row[COLUMNS])
+{
+	const double values[COLUMNS] = {
+		point->ratio,
+		point->fairness,
+		point->closeness.closeness_m4,
+		point->closeness.cn_pct,
+		point->closeness.cn_max_m,
+		point->closeness.cn_rms_m,
+		point->result.objective_end,
+		(double)point->result.iterations,
+		point->gap_estimate,
+		point->result.end == BATTEN_SEARCH_LIMIT ? 0.0 : 1.0,
+		point->dominated ? 1.0 : 0.0,
+	};
+	memcpy(row, values, sizeof values);
+}
+
+/* LOW:HIGH:COUNT. */
+static batten_status read_front(const char *text, double *low, double *high, size_t *count)
+{
+	char *end = NULL;
+	char *last = NULL;
+	*low = strtod(text, &end);
+	if (end != text && *end == ':')
+		*high = strtod(end + 1, &last);
+	if (last && last != end + 1 && *last == ':') {
+		const char *digits = last + 1;
+		errno = 0;
+		const unsigned long number = strtoul(digits, &end, 10);
+		if (*digits >= '0' && *digits <= '9' && *end == '\0' && errno == 0 && number >= 2 &&
+		    number <= 4096 && *low > 0.0 && *high > *low) {
+			*count = number;
+			return BATTEN_OK;
+		}
+	}
+	return cli_usage("fair",
+	                 "--front: found '%s', expected LOW:HIGH:COUNT, as 1:1e6:25: 0 < LOW < HIGH, "
+	                 "COUNT from 2 to 4096",
+	                 text);
+}
+
+static batten_status write_files(const fair_job *job, const batten_table *table,
+                                 const batten_front_point *points, const char *folder)
+{
+	static const char *const names[] = { "front.csv", "front.json", "front.svg" };
+	bool made = false;
+	batten_status status = fair_folder_make(folder, &made);
+	if (status != BATTEN_OK)
+		return status;
+	for (size_t f = 0; f < sizeof names / sizeof names[0] && status == BATTEN_OK; f++) {
+		char path[PATH_MAX];
+		if (snprintf(path, sizeof path, "%s/%s", folder, names[f]) >= (int)sizeof path)
+			return cli_usage("fair", "--out: found '%s', expected a shorter path", folder);
+		status = f < 2 ? batten_table_write(job->context, table, path)
+		               : batten_picture_front(job->context, table->name, table->row_count, points,
+		                                      path);
+	}
+	return status == BATTEN_OK ? status : cli_failure("fair", job->context, status);
+}
+
+static batten_status tell_json(const batten_table *table)
+{
+	json_t *rows = json_array();
+	for (size_t r = 0; r < table->row_count; r++) {
+		json_t *row = json_object();
+		for (size_t c = 0; c < COLUMNS; c++)
+			(void)json_object_set_new(row, columns[c],
+			                          cli_json_number(table->values[r * COLUMNS + c]));
+		(void)json_array_append_new(rows, row);
+	}
+	json_t *object = json_object();
+	(void)json_object_set_new(object, "name", json_string(table->name));
+	(void)json_object_set_new(object, "points", rows);
+	return cli_json_write(object, stdout);
+}
+
+static batten_status tell(const fair_job *job, const batten_table *table, const char *folder)
+{
+	if (job->request->common.json)
+		return tell_json(table);
+	if (job->request->common.quiet)
+		return BATTEN_OK;
+	(void)printf("%14s %14s %14s %10s\n", "w2/w1", "fairness", "rms change mm", "cn %");
+	for (size_t r = 0; r < table->row_count; r++) {
+		const double *row = table->values + r * COLUMNS;
+		(void)printf("%14.6g %14.6g %14.6g %10.4g%s%s\n", row[0], row[1], 1000.0 * row[5], row[3],
+		             row[9] == 0.0 ? "  not converged" : "", row[10] == 0.0 ? "" : "  dominated");
+	}
+	(void)printf("\nwritten to %s: front.csv, front.json, front.svg\n", folder);
+	return BATTEN_OK;
+}
+
+/* What a front has none of. */
+static batten_status check(const fair_job *job)
+{
+	if (job->options.weights_given)
+		return cli_usage("fair", "--front sweeps w2/w1: no --w1 and --w2 are expected with it");
+	if (job->options.variables == BATTEN_VARIABLES_NET)
+		return cli_usage("fair",
+		                 "--front is about offsets: --variables offsets was expected with it");
+	return BATTEN_OK;
+}
+
+batten_status fair_front(fair_job *job, const char *folder)
+{
+	double low = 0.0;
+	double high = 0.0;
+	size_t count = 0;
+	batten_status status = check(job);
+	if (status == BATTEN_OK)
+		status = read_front(job->request->front, &low, &high, &count);
+	if (status != BATTEN_OK)
+		return status;
+	batten_front_point *points = calloc(count, sizeof *points);
+	double *values = calloc(count, COLUMNS * sizeof *values);
+	batten_status swept = BATTEN_MEMORY;
+	if (points && values)
+		swept = batten_hull_front(job->context, job->hull, &job->options, low, high, count, points);
+	status = swept == BATTEN_INCOMPLETE ? BATTEN_OK : swept;
+	if (status == BATTEN_MEMORY)
+		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(status));
+	else if (status != BATTEN_OK)
+		(void)cli_failure("fair", job->context, status);
+	if (status == BATTEN_OK) {
+		for (size_t p = 0; p < count; p++)
+			put_row(&points[p], values + p * COLUMNS);
+		const batten_table table = { .name = batten_hull_name(job->hull),
+			                         .quadrature = "differences over 3 x 3 offsets",
+			                         .column_count = COLUMNS,
+			                         .row_count = count,
+			                         .columns = columns,
+			                         .values = values };
+		status = write_files(job, &table, points, folder);
+		if (status == BATTEN_OK)
+			status = tell(job, &table, folder);
+	}
+	free(points);
+	free(values);
+	return status == BATTEN_OK ? swept : status;
+}
