@@ -3,6 +3,7 @@
  * found beforehand: the longest last step that reaches it on every hull. */
 #include "wigley_case.h"
 
+#include <math.h>
 #include <stdio.h>
 
 enum { HULLS = 16, TEXTBOOK_HULLS = 1, SWEEP_LIMIT = 20000 };
@@ -63,11 +64,10 @@ static batten_status calibrate(const bench_settings *settings, side *s, const wi
                                const double most[HULLS], size_t judged)
 {
 	batten_status status = BATTEN_OK;
-	double values[HULLS];
-	for (double step = 0.5 * s->options.first_step; step > 1e-7 && status == BATTEN_OK;
-	     step *= 0.5) {
+	double values[HULLS] = { 0.0 };
+	for (int halvings = 1; halvings < 18 && status == BATTEN_OK; halvings++) {
 		bool reached = true;
-		s->options.last_step = step;
+		s->options.last_step = ldexp(s->options.first_step, -halvings);
 		status = find_ends(settings, s, w, values);
 		for (size_t h = 0; h < judged && h < s->count; h++)
 			reached = reached && values[h] <= most[h];
@@ -151,7 +151,8 @@ static batten_status time_probes(const bench_settings *settings, const wigley_ca
 /* To the textbook search's own end, in f64; to a gap, in f32. */
 static batten_status time_searches(const bench_settings *settings, const wigley_case *w)
 {
-	double best[HULLS], ends[HULLS];
+	double best[HULLS] = { 0.0 };
+	double ends[HULLS] = { 0.0 };
 	side textbook = make_side(BATTEN_ALGORITHM_TEXTBOOK, BATTEN_DEVICE_REFERENCE, BATTEN_F64);
 	side value = make_side(BATTEN_ALGORITHM_MULTILEVEL, settings->device, BATTEN_F64);
 	batten_status status = find_ends(settings, &textbook, w, ends);

@@ -122,7 +122,7 @@ batten_status fair_front(fair_job *job, const char *folder)
 {
 	double low = 0.0;
 	double high = 0.0;
-	size_t count = 0;
+	size_t count = 1;
 	batten_status status = check(job);
 	if (status == BATTEN_OK)
 		status = read_front(job->request->front, &low, &high, &count);
