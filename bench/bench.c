@@ -19,6 +19,9 @@ const bench_entry bench_entries[] = {
 	  bench_surface_energy },
 	{ "surface.opencascade", "the same grid against OpenCASCADE, where that is installed",
 	  bench_surface_opencascade },
+	{ "variation.lackenby",
+	  "variants of a trawler and their hydrostatics, against the plain C path",
+	  bench_variation_lackenby },
 	{ NULL, NULL, NULL },
 };
 

@@ -38,6 +38,7 @@ batten_status bench_search_net(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
 batten_status bench_surface_energy(const bench_settings *settings);
 batten_status bench_surface_opencascade(const bench_settings *settings);
+batten_status bench_variation_lackenby(const bench_settings *settings);
 
 /* Noisy Wigley hull of this number as a bicubic surface of 24 x 12 poles. */
 batten_status bench_surface_hull(batten_context *context, uint32_t number, batten_surface **out);

@@ -74,10 +74,16 @@ char *batten_number_write(char buffer[BATTEN_NUMBER_SIZE], double value)
 		                            : "inf");
 		return buffer;
 	}
-	for (int digits = 15; digits <= 17; digits++) {
-		(void)snprintf(buffer, BATTEN_NUMBER_SIZE, "%.*g", digits, value);
-		if (strtod(buffer, NULL) == value)
-			break;
+	/* Where 15 digits read back, so do the nearest 16, which are no farther off: most numbers need two
+	 * trials, not three. */
+	char shorter[BATTEN_NUMBER_SIZE];
+	(void)snprintf(buffer, BATTEN_NUMBER_SIZE, "%.16g", value);
+	if (strtod(buffer, NULL) == value) {
+		(void)snprintf(shorter, sizeof shorter, "%.15g", value);
+		if (strtod(shorter, NULL) == value)
+			memcpy(buffer, shorter, sizeof shorter);
+	} else {
+		(void)snprintf(buffer, BATTEN_NUMBER_SIZE, "%.17g", value);
 	}
 	const char *local = localeconv()->decimal_point;
 	char *point = strstr(buffer, local);
