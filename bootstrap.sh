@@ -6,8 +6,9 @@
 #   sh bootstrap.sh test    builds and runs every test, then the sanitizers
 #
 # Debian packages that are missing are installed as root or by sudo; without either, the one line that
-# installs them is printed and the exit code is 6. Once they are there, no network is used. May be run
-# again and again, in any order, from anywhere.
+# installs them is printed and the exit code is 6. Once they are there, the network is used for one
+# thing, the modules of the report's page, and batten builds without these. May be run again and again, in
+# any order, from anywhere.
 set -eu
 
 usage()
@@ -81,11 +82,22 @@ vulkan-validationlayers
 libxml2-utils librsvg2-bin
 gmsh
 sqlite3
+chromium
 "
 # cmocka: unit tests. nlopt: the optimum that a search is compared with. clang: the second compiler, the kernels' syntax, and with libclang-rt
 # AddressSanitizer. clang-format clang-tidy: layout and lint. vulkan-validationlayers: misuse of Vulkan.
 # xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and STEP files, as an independent program.
 # sqlite3: reads the databases of sweeps.
+# chromium: the page of batten report in a real browser.
+
+# nodejs npm: the page of batten report. Other sources' nodejs brings npm along and cannot stand beside
+# Debian's, so whoever has the commands needs no package. The page's modules come from the registry that
+# npm is set up for, when the build is configured first; where there is none, batten builds without it.
+if command -v npm >/dev/null 2>&1 && { command -v node || command -v nodejs; } >/dev/null 2>&1; then
+	page_packages=
+else
+	page_packages="nodejs npm"
+fi
 
 is_installed()
 {
@@ -185,9 +197,9 @@ run_tests()
 
 # shellcheck disable=SC2046,SC2086
 case $action in
-build) install_packages $packages ;;
-demo) install_packages $packages $run_packages ;;
-test) install_packages $packages $run_packages $test_packages ;;
+build) install_packages $packages $page_packages ;;
+demo) install_packages $packages $page_packages $run_packages ;;
+test) install_packages $packages $page_packages $run_packages $test_packages ;;
 esac
 
 case $action in

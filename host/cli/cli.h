@@ -76,6 +76,7 @@ batten_status cli_surface(int argc, char **argv);
 batten_status cli_convert(int argc, char **argv);
 batten_status cli_vary(int argc, char **argv);
 batten_status cli_sweep(int argc, char **argv);
+batten_status cli_report(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);
 batten_status cli_bench(int argc, char **argv);

@@ -18,6 +18,7 @@ static const subcommand subcommands[] = {
 	{ "sweep", cli_sweep, "run a plan of many designs into a database" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "convert", cli_convert, "surfaces from one of JSON, IGES and STEP to another" },
+	{ "report", cli_report, "the result of a sweep as one page to look at in a browser" },
 	{ "devices", cli_devices, "list the OpenCL devices of this machine" },
 	{ "selftest", cli_selftest, "run every kernel against the plain C path" },
 	{ "bench", cli_bench, "time the engine against a named reference" },
@@ -75,7 +76,7 @@ int main(int argc, char **argv)
 	(void)fprintf(
 		stderr,
 		"batten: found '%s', a command was expected: fair, measure, curve, vary, sweep, surface, "
-		"convert, devices, selftest, bench\n",
+		"convert, report, devices, selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

@@ -23,6 +23,7 @@ ray           core hull geometry
 hydrostatics  core hull geometry batch shared
 variation     core hull geometry batch hydrostatics shared
 fairing       core hull geometry batch hydrostatics shared
+report        core hull geometry picture
 sweep         core hull geometry batch io exchange picture ray hydrostatics variation fairing shared
 bench
 cli           bench
@@ -31,7 +32,7 @@ oracle
 support       core hull device reference batch geometry io picture ray hydrostatics variation fairing
 support       oracle
 test          core hull device reference batch geometry io exchange picture ray hydrostatics variation fairing
-test          sweep shared oracle support generated-kernels
+test          report sweep shared oracle support generated-kernels
 '
 
 # Headers of libraries, each wrapped in few rooms; a header that is not listed is free.
@@ -40,9 +41,9 @@ CL/       device
 vulkan/   picture test
 cairo     picture
 png.h     picture test
-jansson.h cli sweep io test
+jansson.h cli report sweep io test
 xxhash.h  device sweep
-sqlite3.h sweep test
+sqlite3.h report sweep test support
 cmocka.h  test support
 nlopt.h   test oracle
 Random123 sweep data test
