@@ -1866,14 +1866,16 @@ enum { BATTEN_REPORT_HULLS_MOST = 100000 };
 
 typedef struct batten_report_options {
 	size_t struct_size;
-	size_t hull_count; /* hulls whose geometry goes into the report, the best kept ones of the sweep,
+	size_t
+		hull_count;   /* hulls whose geometry goes into the report, the best kept ones of the sweep,
 	                      0..BATTEN_REPORT_HULLS_MOST; 0 takes the plan's number, else 1000 */
-	const char *page;  /* the page the data are put into; NULL takes the one of this build */
+	const char *page; /* the page the data are put into; NULL takes the one of this build */
 } batten_report_options;
 BATTEN_API void batten_report_options_default(batten_report_options *options);
 
 typedef struct batten_report_facts {
-	size_t design_count, shown_count; /* above 200000 designs not all are shown: the front, the hulls
+	size_t design_count,
+		shown_count;    /* above 200000 designs not all are shown: the front, the hulls
 	                                     and every n-th of the rest */
 	size_t front_count; /* designs that no other one is better than in every objective */
 	size_t hull_count;  /* hulls that can be looked at */
@@ -1885,8 +1887,8 @@ typedef struct batten_report_facts {
  * MISSING (batten was built without the page), IO (also a database that is being written), INPUT (no
  * database of a sweep, or one that is not as it should be), USAGE, MEMORY. */
 BATTEN_API batten_status batten_report_write(batten_context *context, const char *database,
-                                             const batten_report_options *options,
-                                             const char *path, batten_report_facts *facts);
+                                             const batten_report_options *options, const char *path,
+                                             batten_report_facts *facts);
 
 #ifdef __cplusplus
 }
