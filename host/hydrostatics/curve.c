@@ -158,6 +158,22 @@ static void trapezoid_nodes(const curve *line, double from, double to, curve_nod
 	}
 }
 
+/* No jump of the slope between the points of a parabola: knuckles stand at every second point only. */
+static batten_status check_knuckles(const curve *line, size_t first, size_t last, const char *what,
+                                    double coordinate)
+{
+	size_t point = 0;
+	for (size_t k = 0; k + 1 < line->piece_count; k++) {
+		point += line->pieces[k].count - 1; /* where the next piece begins */
+		if (point > first && point < last && (point - first) % 2 != 0)
+			return batten_fail(line->context, BATTEN_INPUT,
+			                   "%s %g m: Simpson's rule needs an even number of intervals before "
+			                   "the knuckle at %g m, found %zu",
+			                   what, coordinate, line->at[point], point - first);
+	}
+	return BATTEN_OK;
+}
+
 /* The points first..last are from and to and have equal intervals, an even number of them. */
 static batten_status check_simpson(const curve *line, double from, double to, size_t first,
                                    size_t last, const char *what, double coordinate)
@@ -178,7 +194,7 @@ static batten_status check_simpson(const curve *line, double from, double to, si
 		return batten_fail(line->context, BATTEN_INPUT,
 		                   "%s %g m: Simpson's rule needs an even number of intervals, found %zu",
 		                   what, coordinate, last - first);
-	return BATTEN_OK;
+	return check_knuckles(line, first, last, what, coordinate);
 }
 
 static batten_status simpson_nodes(const curve *line, double from, double to, const char *what,

@@ -44,7 +44,8 @@ typedef struct curve_nodes {
 
 /* The nodes of a rule between from and to, both within the curve.
  *   spline:    five Gauss points in every interval, exact for the spline up to its cube
- *   Simpson:   the points; needs an even number of equal intervals from end to end
+ *   Simpson:   the points; needs an even number of equal intervals from end to end and before each
+ *              knuckle
  *   trapezoid: the points, and the straight line's value at ends between two of them
  * what and coordinate name the line in a message. Errors: INPUT (Simpson's conditions), MEMORY. */
 batten_status curve_quadrature(const curve *line, batten_quadrature rule, double from, double to,

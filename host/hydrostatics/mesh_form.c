@@ -255,13 +255,42 @@ static batten_status section_of(const void *form, double x_m, double draft_m, do
 	return BATTEN_OK;
 }
 
+/* The first triangle with an open edge below the draft that is neither a transom's nor in the
+ * centreplane. */
+static batten_status check_closed(const floating_body *body, double draft_m)
+{
+	const mesh_arrays *mesh = body->form;
+	const double near_x = 1e-9 * (mesh->foremost_m - mesh->aftmost_m);
+	const double near_z = 1e-9 * (mesh->highest_m - mesh->lowest_m);
+	const mesh_edge *found = NULL;
+	for (size_t i = 0; i < mesh->open_count; i++) {
+		const mesh_edge *edge = &mesh->open[i];
+		const double *p = mesh->vertices + 3 * (size_t)edge->from;
+		const double *q = mesh->vertices + 3 * (size_t)edge->to;
+		const bool aft = fmax(p[0], q[0]) <= mesh->aftmost_m + near_x;
+		const bool fore = fmin(p[0], q[0]) >= mesh->foremost_m - near_x;
+		if (!aft && !fore && fmin(p[2], q[2]) < draft_m - near_z &&
+		    (!found || edge->triangle < found->triangle))
+			found = edge;
+	}
+	if (!found)
+		return BATTEN_OK;
+	return batten_fail(body->context, BATTEN_INPUT,
+	                   "triangle %lu: its edge %lu-%lu borders a hole below the draft of %g m",
+	                   (unsigned long)found->triangle, (unsigned long)found->from,
+	                   (unsigned long)found->to, draft_m);
+}
+
 static batten_status calculate(const floating_body *body, double draft_m, hydrostatics *out)
 {
 	const mesh_arrays *mesh = body->form;
 	hydrostatics made;
+	batten_status status = check_closed(body, draft_m);
+	if (status != BATTEN_OK)
+		return status;
 	mesh_integrate(mesh, draft_m, &made);
-	batten_status status = quantities_main_sections(body, section_of, draft_m, mesh->aftmost_m,
-	                                                mesh->foremost_m, &made);
+	status = quantities_main_sections(body, section_of, draft_m, mesh->aftmost_m, mesh->foremost_m,
+	                                  &made);
 	if (status == BATTEN_OK)
 		*out = made;
 	return status;

@@ -313,7 +313,7 @@ batten_status batten_hull_solve(batten_context *context, const batten_hull *pare
 		status = batten_fail(context, BATTEN_USAGE,
 		                     "solve for %zu targets, expected 1 to %d and as many parameters",
 		                     count, MOST);
-	for (size_t i = 0; status == BATTEN_OK && targets && i < count; i++) {
+	for (size_t i = 0; status == BATTEN_OK && targets && parameters && i < count; i++) {
 		status = read_target(&problem, targets[i], i);
 		if (status == BATTEN_OK)
 			status = read_parameter(&problem, &parameters[i], i);

@@ -227,6 +227,40 @@ static void simpson_says_what_is_wrong(void **state)
 	batten_context_destroy(context);
 }
 
+/* The third condition: no jump of the slope but between two parabolas. */
+static void simpson_and_knuckles(void **state)
+{
+	(void)state;
+	batten_context *context = make_context();
+	const double at[] = { 0, 1, 2, 3, 4, 5, 6 }, v[] = { 0, 1, 2, 3, 2, 1, 0 };
+	for (size_t knuckle = 1; knuckle <= 5; knuckle++) {
+		for (int after = 0; after < 2; after++) {
+			unsigned char marks[7] = { 0 };
+			marks[knuckle] = after ? CURVE_BREAK_AFTER : CURVE_BREAK_AT;
+			curve made;
+			curve_nodes nodes = { 0 };
+			assert_int_equal(curve_create(context, 7, at, v, marks, SPLINE_NATURAL, &made),
+			                 BATTEN_OK);
+			const batten_status status = curve_quadrature(&made, simpson, 0, 6, "line", 0, &nodes);
+			const bool good = !after && knuckle % 2 == 0;
+			assert_int_equal(status, good ? BATTEN_OK : BATTEN_INPUT);
+			if (!good)
+				assert_non_null(strstr(batten_context_error(context), "before the knuckle at"));
+			/* counted from where the part begins */
+			if (good)
+				curve_nodes_release(context, &nodes);
+			if (!after && knuckle == 3) {
+				assert_int_equal(curve_quadrature(&made, simpson, 1, 5, "line", 0, &nodes),
+				                 BATTEN_OK);
+				assert_near(curve_nodes_moment(&nodes, 0), 8, 1e-14);
+				curve_nodes_release(context, &nodes);
+			}
+			curve_destroy(&made);
+		}
+	}
+	batten_context_destroy(context);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -236,6 +270,7 @@ int main(void)
 		cmocka_unit_test(breaks),
 		cmocka_unit_test(part_of_a_line),
 		cmocka_unit_test(simpson_says_what_is_wrong),
+		cmocka_unit_test(simpson_and_knuckles),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

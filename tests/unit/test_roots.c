@@ -18,7 +18,7 @@ static void assert_near(double value, double expected, double tolerance)
 }
 
 static struct roots find(size_t count, double least, double most, double start,
-                         roots_function *function, const void *user)
+                         roots_function *function, void *user)
 {
 	struct roots roots;
 	struct roots_task task = {
@@ -84,7 +84,7 @@ static void one_number(void **state)
 static void touching(void **state)
 {
 	(void)state;
-	const double on = 0, above = 1e-6, below = -1e-6;
+	double on = 0, above = 1e-6, below = -1e-6;
 	struct roots roots = find(1, -4, 4, 0, parabola, &on);
 	assert_int_equal(roots.count, 1);
 	assert_near(roots.at[0][0], 0.7, 1e-6);
@@ -107,7 +107,7 @@ static batten_status circle(void *user, const double *at, double *out)
 static void two_numbers(void **state)
 {
 	(void)state;
-	const double two = 2, none = -1, far = 50;
+	double two = 2, none = -1, far = 50;
 	struct roots roots = find(2, -3, 3, 0.5, circle, &two);
 	assert_int_equal(roots.count, 2);
 	for (size_t i = 0; i < 2; i++) {
@@ -146,7 +146,7 @@ static batten_status bodies(void *user, const double *at, double *out)
 static void second_root_is_rejected(void **state)
 {
 	(void)state;
-	const three_body_target asked = { 19.0 / 30, 0.52, 0.66 };
+	three_body_target asked = { 19.0 / 30, 0.52, 0.66 };
 	struct roots roots = find(3, 0.1, 4, 1, bodies, &asked);
 	assert_int_equal(roots.count, 1);
 	assert_near(roots.at[0][0], 0.91521804677335, 1e-10);

@@ -32,7 +32,7 @@ static struct form form_of(batten_context *context, const batten_hull *hull)
 {
 	const size_t stations = batten_hull_station_count(hull);
 	const double *x = batten_hull_x_m(hull), *z = batten_hull_z_m(hull), *y = batten_hull_y_m(hull);
-	double at[16], areas[16];
+	double at[16] = { 0 }, areas[16] = { 0 };
 	size_t count = 0;
 	struct form form = { 0 };
 	for (size_t s = 0; s < stations; s++) {
@@ -140,7 +140,7 @@ static void test_breadths(void **state)
 		const batten_vary_options options = preset(presets[k], 0.3);
 		batten_hull *variant = vary(*state, box, &options, NULL);
 		for (size_t i = 0; i < 231; i++) {
-			const double x = 0.1 * (double)(i % 11), z = 0.1 * (double)(i / 11);
+			const double x = 0.1 * (double)(i % 11), z = 0.1 * (double)((i - i % 11) / 11);
 			const double below = fmax(1 - z, 0),
 						 f[] = { -4 * x * (1 - x) * z * pow(below, 4) / 0.08192, -pow(below, 2),
 				                 pow(x, 4) * z * z };

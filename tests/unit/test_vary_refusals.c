@@ -150,6 +150,27 @@ static void test_warning(void **state)
 	options.dlcb_pct = 1;
 	batten_hull_destroy(vary(*state, hull, &options, &outcome));
 	assert_string_equal(outcome.warning, "");
+	/* every number of percent, on either side of 0.2 and 30 */
+	options = method(BATTEN_VARY_MOOR);
+	options.first_pass = true;
+	double *const numbers[] = { &options.dcp_pct, &options.dlcb_pct, &options.dcwp_pct,
+		                        &options.dlcf_pct };
+	for (size_t i = 0; i < 4; i++)
+		for (int k = 0; k < 2; k++) {
+			*numbers[i] = k == 0 ? -0.19 : 0.21;
+			batten_hull_destroy(vary(*state, hull, &options, &outcome));
+			assert_int_equal(strstr(outcome.warning, "is percent what is meant?") != NULL, k == 0);
+			*numbers[i] = 0;
+		}
+	options = method(BATTEN_VARY_ONE_MINUS_PRISMATIC);
+	options.first_pass = true;
+	batten_hull *full = read_hull(*state, "wigley");
+	for (int k = 0; k < 2; k++) {
+		options.dcp_pct = k == 0 ? 30.1 : 29.9;
+		batten_hull_destroy(vary(*state, full, &options, &outcome));
+		assert_int_equal(strstr(outcome.warning, "dcp is 30.1 percent") != NULL, k == 0);
+	}
+	batten_hull_destroy(full);
 	batten_hull_destroy(hull);
 }
 
