@@ -24,6 +24,10 @@ static const cli_command command = {
 
 static const char *const quadratures[] = { "spline", "simpson", "trapezoid" };
 
+/* What all numbers are of (Letcher 1.2.1, 10); the report says so, that two hulls compare. */
+static const char state_text[] = "moulded, bare hull, upright";
+static const char transom_text[] = "left out of wetted_surface_m2";
+
 enum { WARNINGS_MOST = 16, HEIGHTS_MOST = 4096 };
 
 /* Measures, then what only hydrostatics has, where it exists. */
@@ -52,12 +56,13 @@ static void print_text(const measure_job *job, const struct found *found)
 	const double *values = (const double *)&found->measures;
 	const double *more = (const double *)&found->hydrostatics;
 	if (job->hull)
-		(void)printf("%s: %zu stations, %zu waterlines; metres, frame ap-fwd; quadrature: %s\n\n",
+		(void)printf("%s: %zu stations, %zu waterlines; metres, frame ap-fwd; quadrature: %s\n",
 		             job->name, batten_hull_station_count(job->hull),
 		             batten_hull_waterline_count(job->hull), measure_rule(job));
 	else
-		(void)printf("%s: B-spline surface; metres, frame ap-fwd; quadrature: %s\n\n", job->name,
+		(void)printf("%s: B-spline surface; metres, frame ap-fwd; quadrature: %s\n", job->name,
 		             measure_rule(job));
+	(void)printf("%s; transom %s\n\n", state_text, transom_text);
 	for (size_t i = 0; i < BATTEN_MEASURE_COUNT; i++)
 		print_line(batten_measure_name(i), values[i], batten_measure_text(i));
 	for (size_t i = SHARED_COUNT; i < BATTEN_HYDROSTATICS_COUNT; i++)
@@ -69,8 +74,9 @@ static batten_status print_json(const measure_job *job, const struct found *foun
 {
 	const double *more = (const double *)&found->hydrostatics;
 	json_t *warnings = json_array();
-	json_t *object = json_pack("{s:s, s:s, s:s}", "name", job->name, "frame", "ap-fwd",
-	                           "quadrature", measure_rule(job));
+	json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:s}", "name", job->name, "frame", "ap-fwd",
+	                           "quadrature", measure_rule(job), "state", state_text, "transom",
+	                           transom_text);
 	if (object)
 		cli_json_measures(object, &found->measures);
 	for (size_t i = SHARED_COUNT; object && i < BATTEN_HYDROSTATICS_COUNT; i++)

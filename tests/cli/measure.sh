@@ -14,6 +14,8 @@ for name in lbp_m lwl_m beam_wl_m beam_max_m draft_m half_beam_m volume_m3 displ
 	holds "$name in JSON" 'x == x' x="$(member wigley.json $name)"
 done
 [ "$(member wigley.json frame)" = ap-fwd ] || fail 'the frame is not named'
+[ "$(member wigley.json state)" = 'moulded, bare hull, upright' ] || fail 'the state is not named'
+[ "$(member wigley.json transom)" = 'left out of wetted_surface_m2' ] || fail 'the transom is not tagged'
 [ "$(member wigley.json name)" = 'Wigley hull' ] || fail 'the hull is not named'
 
 # The table says the same as the JSON.
