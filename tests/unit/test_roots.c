@@ -160,12 +160,16 @@ static void second_root_is_rejected(void **state)
 	assert_near(roots.at[1][2], 36.910, 1e-3);
 }
 
+struct calls {
+	size_t count, numbers;
+};
+
 static batten_status failing(void *user, const double *at, double *out)
 {
-	size_t *calls = user;
-	out[0] = at[0];
-	out[1] = at[1] + 2;
-	return ++*calls == 5 ? BATTEN_MEMORY : BATTEN_OK;
+	struct calls *calls = user;
+	for (size_t i = 0; i < calls->numbers; i++)
+		out[i] = at[i] + 2 * (double)i;
+	return ++calls->count == 5 ? BATTEN_MEMORY : BATTEN_OK;
 }
 
 static void failures_end_it(void **state)
@@ -173,7 +177,7 @@ static void failures_end_it(void **state)
 	(void)state;
 	struct roots roots;
 	for (size_t count = 1; count <= 2; count++) {
-		size_t calls = 0;
+		struct calls calls = { 0, count };
 		const struct roots_task task = { .count = count,
 			                             .least = { -1, -1 },
 			                             .most = { 1, 1 },
@@ -182,7 +186,7 @@ static void failures_end_it(void **state)
 			                             .function = failing,
 			                             .user = &calls };
 		assert_int_equal(roots_find(&task, &roots), BATTEN_MEMORY);
-		assert_int_equal(calls, 5);
+		assert_int_equal(calls.count, 5);
 	}
 }
 
