@@ -12,6 +12,8 @@ const bench_entry bench_entries[] = {
 	  bench_search_textbook },
 	{ "search.net", "searches over control nets, OpenCL against the plain C path",
 	  bench_search_net },
+	{ "forward.pass", "forward and inverse fairing of many hulls, OpenCL against the plain C path",
+	  bench_fairing_pass },
 	{ "surface.curvature_grid",
 	  "K and H of B-spline surfaces on a grid, OpenCL against the plain C path",
 	  bench_surface_curvature_grid },
@@ -121,6 +123,9 @@ batten_status bench_against_reference(const bench_settings *settings, const benc
 		/* Beside the pair: the clock of a core changes with its neighbours' load. */
 		const double peak = with_peak ? bench_peak(row->precision) : 0.0;
 		share[p] = peak > 0.0 ? contest->operations / pairs.value[p] / peak : 0.0;
+		const double stream = with_peak && contest->bytes > 0.0 ? bench_stream() : 0.0;
+		const double moved = stream > 0.0 ? contest->bytes / pairs.value[p] / stream : 0.0;
+		share[p] = moved > share[p] ? moved : share[p];
 	}
 	if (status != BATTEN_OK)
 		return status;

@@ -12,8 +12,9 @@ typedef struct bench_row {
 	const char *unit, *reference;
 	double value, reference_value;
 	double ratio, ratio_low, ratio_high;
-	double
-		percent_of_peak; /* of one core's multiply-adds, measured in the same run; 0: not known */
+	/* Of one core's multiply-adds, or of what memory gives one core, whichever it uses more of;
+	 * measured in the same run; 0: not known. */
+	double percent_of_peak;
 } bench_row;
 
 typedef struct bench_settings {
@@ -36,6 +37,7 @@ batten_status bench_search_multilevel(const bench_settings *settings);
 batten_status bench_search_textbook(const bench_settings *settings);
 batten_status bench_search_net(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
+batten_status bench_fairing_pass(const bench_settings *settings);
 batten_status bench_surface_energy(const bench_settings *settings);
 batten_status bench_surface_opencascade(const bench_settings *settings);
 batten_status bench_variation_lackenby(const bench_settings *settings);
@@ -71,6 +73,7 @@ typedef struct bench_contest {
 	bool (*same)(const void *workload); /* whether both sides' results are equal bit for bit */
 	double scale;                       /* from seconds of one run to the row's unit */
 	double operations; /* floating-point, of one run, for percent_of_peak; 0: leave that unknown */
+	double bytes;      /* read and written, likewise */
 } bench_contest;
 
 /* Runs the contest as bench/README.md says and emits row, which has name, case, precision and unit
@@ -82,6 +85,9 @@ batten_status bench_against_reference(const bench_settings *settings, const benc
 /* Floating-point operations a second of one core, multiply-adds in its widest vectors counted as two;
  * 0 where they are not known to be had. Takes milliseconds: measure it beside what it judges. */
 double bench_peak(batten_precision precision);
+
+/* Bytes a second that memory gives one core; 0 where memory is out. Takes 20 milliseconds. */
+double bench_stream(void);
 
 /* CPU seconds of the whole process; wall seconds. */
 double bench_cpu_seconds(void);

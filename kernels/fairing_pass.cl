@@ -1,7 +1,8 @@
 /* Passes of forward and inverse fairing (thesis 5.2, 5.3, 6) over many hulls of one topology.
  *
- * A work-group has BATTEN_LANES hulls, one a lane of `real`, and goes through all iterations of the
- * pass; its work-items share the rows and lines of an operation. On a CPU: many lanes, one work-item.
+ * A work-group takes BATTEN_LANES hulls at a time, one a lane of `real`, through all iterations of the
+ * pass, and then the next: its room stays in the cache. Its work-items share the rows and lines of an
+ * operation. On a CPU: many lanes, one work-item.
  * On a GPU: one lane, many work-items. Every row and line is worked in one fixed order by one
  * work-item, so the shape does not change a bit of the result.
  *
@@ -80,8 +81,8 @@ static inline void give_back(global const real *state, int values, int hulls, gl
 	}
 }
 
-/* The program: see pass_run.h. constants: those of the state. from, to [hull][values]; hulls: of all
- * groups. room: state_size reals a group. */
+/* The program: see pass_run.h. constants: those of the state. from, to [hull][values]. room: state_size
+ * reals a group. */
 kernel void fairing_pass(int hulls, int state_size, global const int *shape,
                          global const int *operations, global const int *row_first,
                          global const int *row_target, global const int *term_index,
@@ -90,19 +91,22 @@ kernel void fairing_pass(int hulls, int state_size, global const int *shape,
                          global const scalar *point_along, global const scalar *constants,
                          global const number *from, global number *to, global real *room)
 {
-	const size_t group = get_group_id(0);
 	const int values = shape[PASS_SHAPE_VALUES];
-	const int left = hulls - (int)group * BATTEN_LANES;
-	const int here = left < BATTEN_LANES ? left : BATTEN_LANES;
-	const size_t first = group * BATTEN_LANES * (size_t)values;
-	global real *state = room + group * (size_t)state_size;
+	global real *state = room + get_group_id(0) * (size_t)state_size;
 	const pass_program program = { shape,       operations, row_first,  row_target, term_index,
 		                           term_factor, line_first, point_from, point_to,   point_along };
-	take(from + first, values, here, state);
 	ROLLED
-	for (int c = WORK_ITEM; c < shape[PASS_SHAPE_CONSTANTS]; c += WORK_ITEMS)
-		state[values + c] = SPREAD(constants[c]);
-	WAIT;
-	pass_run(&program, state);
-	give_back(state, values, here, to + first);
+	for (int first = (int)get_group_id(0) * BATTEN_LANES; first < hulls;
+	     first += (int)get_num_groups(0) * BATTEN_LANES) {
+		const int here = hulls - first < BATTEN_LANES ? hulls - first : BATTEN_LANES;
+		const size_t begin = (size_t)first * (size_t)values;
+		take(from + begin, values, here, state);
+		ROLLED
+		for (int c = WORK_ITEM; c < shape[PASS_SHAPE_CONSTANTS]; c += WORK_ITEMS)
+			state[values + c] = SPREAD(constants[c]);
+		WAIT;
+		pass_run(&program, state);
+		give_back(state, values, here, to + begin);
+		WAIT;
+	}
 }

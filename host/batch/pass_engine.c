@@ -6,8 +6,8 @@
 
 #include <stdio.h>
 
-/* Most bytes of half-breadths and of states in one launch, and groups a compute unit gets. */
-enum { BLOCK_BYTES = 256 << 20, BLOCK_ROUNDS = 64 };
+/* Most bytes of half-breadths read by one launch: enough to hide it, in bounded memory. */
+enum { BLOCK_BYTES = 64 << 20 };
 
 batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten_device *device,
                                batch_engine **out, batten_selftest *result)
@@ -46,17 +46,12 @@ batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten
 size_t pass_engine_block(const batch_engine *engine, const pass_plan *plan)
 {
 	const batten_device *device = batch_engine_device(engine);
-	const batch_engine_recipe *recipe = &engine->recipe;
-	const size_t number = batch_engine_number_size(recipe->precision);
-	const size_t group_bytes = recipe->lanes * (pass_plan_state(plan, recipe->work_group) * number +
-	                                            2 * pass_plan_values(plan) * sizeof(double));
+	const size_t hull_bytes = (pass_plan_values(plan) + 1) * sizeof(double);
 	size_t limit = BLOCK_BYTES;
 	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
 		limit = (size_t)device->max_allocation_bytes;
-	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
-	if (groups > limit / group_bytes)
-		groups = limit / group_bytes;
-	return (groups ? groups : 1) * recipe->lanes;
+	const size_t groups = limit / hull_bytes / engine->recipe.lanes;
+	return (groups ? groups : 1) * engine->recipe.lanes;
 }
 
 /* Hulls that lie side by side are run together: their half-breadths are one piece of the caller's

@@ -1,5 +1,8 @@
 #include "batch/pass_launch.h"
 
+/* Groups a compute unit gets: more than one hide what is uneven, few keep their room in the cache. */
+enum { GROUPS_OF_UNIT_CPU = 4, GROUPS_OF_UNIT = 32 };
+
 bool pass_launch_in_doubles(const batten_device *device, batten_precision precision)
 {
 	return precision == BATTEN_F64 || (device->is_cpu && device->has_f64);
@@ -28,7 +31,8 @@ typedef struct block {
 	const batch_engine *engine;
 	const pass_plan *plan;
 	size_t first, count; /* hulls */
-	size_t groups, state_size, bytes;
+	size_t groups;       /* of work-items, each taking lanes' hulls again and again */
+	size_t state_size, bytes;
 	bool doubles;
 	bool direct; /* the device works in the caller's memory */
 	float *short_numbers;
@@ -48,7 +52,11 @@ static batten_status block_create(block *b)
 {
 	const batch_engine_recipe *recipe = &b->engine->recipe;
 	const batten_device *device = batch_engine_device(b->engine);
+	const size_t rounds = device->is_cpu ? GROUPS_OF_UNIT_CPU : GROUPS_OF_UNIT;
+	const size_t most = device->compute_units * rounds;
 	b->groups = (b->count + recipe->lanes - 1) / recipe->lanes;
+	if (b->groups > most && most > 0)
+		b->groups = most;
 	b->state_size = pass_plan_state(b->plan, recipe->work_group);
 	b->doubles = pass_launch_in_doubles(device, recipe->precision);
 	b->direct = device->is_cpu && b->doubles;

@@ -1,6 +1,8 @@
 /* batten curve: representations of one line, compared. */
 #include "curve_request.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +11,10 @@ static const cli_command command = {
 	.usage = "LINE.csv [OPTION ...]",
 	.summary = "represent one line, measure how fair it is, compare representations",
 	.example = "  batten curve data/lines/npl_waterline.csv --as spline:natural,bspline:4 \\\n"
-			   "      --out waterline.svg\n",
+			   "      --out waterline.svg\n"
+			   "  batten curve data/lines/quadratic.csv --method search --w1 0.5 --w2 0.5\n"
+			   "  batten curve data/lines/npl_waterline.csv --method forward-fit --vertices 6 \\\n"
+			   "      --faired faired.csv --out faired.svg\n",
 	.notes =
 		"LINE.csv: columns x,y or x,y,z. --as takes, separated by commas:\n"
 		"  monomial, lagrange, newton   one polynomial through up to 64 points\n"
@@ -77,17 +82,22 @@ static batten_status answer(const curve_request *request, batten_context *contex
 	batten_status status = batten_points_read(context, request->path, &points);
 	if (status != BATTEN_OK)
 		return cli_failure("curve", context, status);
+	curve_fairing fairing;
+	const batten_status faired = curve_fair(request, context, &points, &fairing);
+	status = faired == BATTEN_INCOMPLETE ? BATTEN_OK : faired;
 	for (size_t k = 0; k < request->count && status == BATTEN_OK; k++)
 		status = answer_one(context, points, &request->choices[k], &answers[k]);
 	if (status == BATTEN_OK && request->out)
 		status = write_out(request, context, points, answers);
 	if (status == BATTEN_OK && request->common.json)
-		status = curve_print_json(request, points, answers);
-	else if (status == BATTEN_OK)
+		status = curve_print_json(request, points, answers, &fairing);
+	else if (status == BATTEN_OK) {
+		curve_fair_print(request, &fairing);
 		curve_print_table(request, points, answers);
+	}
 	release(request->count, answers);
 	batten_points_destroy(points);
-	return status;
+	return status == BATTEN_OK ? faired : status;
 }
 
 static batten_status check_out(const curve_request *request)
@@ -108,12 +118,28 @@ static batten_status check_out(const curve_request *request)
 
 batten_status cli_curve(int argc, char **argv)
 {
-	curve_request request = { .as = "spline:natural", .parameter = "chord", .points = 201 };
+	curve_request request = { .as = "spline:natural",
+		                      .parameter = "chord",
+		                      .points = 201,
+		                      .fair_order = UINT_MAX,
+		                      .iterations = UINT_MAX,
+		                      .vertices = UINT_MAX,
+		                      .w1 = NAN,
+		                      .w2 = NAN };
 	const cli_option options[] = {
 		{ "as", CLI_TEXT, &request.as, "LIST", "representations (spline:natural)" },
 		{ "parameter", CLI_TEXT, &request.parameter, "P",
 		  "of the points: chord (default), uniform, or x for y(x)" },
 		{ "order", CLI_COUNT, &request.order, "K", "degree + 1 where --as names none (4)" },
+		{ "method", CLI_TEXT, &request.method, "NAME",
+		  "fair the line first: search, forward-approximation, forward-fit, inverse" },
+		{ "fair-order", CLI_COUNT, &request.fair_order, "K", "order of --method, 2 to 8 (3)" },
+		{ "iterations", CLI_COUNT, &request.iterations, "N", "iterations of --method (1)" },
+		{ "vertices", CLI_COUNT, &request.vertices, "N",
+		  "forward-fit: vertices (8); inverse: of the second derivatives (their points)" },
+		{ "w1", CLI_NUMBER, &request.w1, "X", "search: weight of fn, sum of squared d2 (1/m2)" },
+		{ "w2", CLI_NUMBER, &request.w2, "Y", "search: weight of the sum of squared changes (m2)" },
+		{ "faired", CLI_TEXT, &request.faired, "FILE.csv", "writes the faired points, in metres" },
 		{ "points", CLI_COUNT, &request.points, "N", "points of a .csv (201)" },
 		{ "out", CLI_TEXT, &request.out, "FILE", "sampled points .csv, curvature plot .svg" },
 		{ 0 },

@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static const cli_command command = {
@@ -21,7 +22,8 @@ static const cli_command command = {
 		"  batten fair data/hulls/npl_parent.csv --front 1:1e6:25 --out front\n"
 		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
-		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n",
+		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n"
+		"  batten fair data/hulls/npl_parent.csv --method all --out compared\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
 		"NAME-faired by default. Minimises w1 * fairness + w2 * closeness / h^4 (h: half-beam) over\n"
@@ -38,7 +40,9 @@ static const cli_command command = {
 		"iteration; ends of lines stay, stem, stern and keel points beyond the table come from its profile\n"
 		"rows. forward-approximation: the points of a line are the polygon of its B-spline; forward-fit:\n"
 		"waterlines by least squares; inverse: the second derivatives along waterlines and sections as\n"
-		"B-spline surfaces, then the offsets that come closest to them. Order 2 changes nothing.\n",
+		"B-spline surfaces, then the offsets that come closest to them. Order 2 changes nothing.\n"
+		"--method all takes every method in turn from the smoothed hull, each into a folder of DIR, and puts\n"
+		"them side by side: DIR/compare.svg, DIR/compare.json and the table printed.\n",
 };
 
 void fair_warn(fair_job *job, const char *format, ...)
@@ -201,13 +205,10 @@ static batten_status tell(fair_job *job, const char *folder)
 	return BATTEN_OK;
 }
 
-static batten_status run(fair_job *job)
+batten_status fair_job_run(fair_job *job, const char *folder)
 {
-	char folder[PATH_MAX];
 	batten_fair_options *options = &job->options;
-	batten_status status = choose_folder(job->request, folder);
-	if (status == BATTEN_OK)
-		status = read_hulls(job);
+	batten_status status = read_hulls(job);
 	if (status == BATTEN_OK)
 		status = fair_options_read(job->request, job->hull, options, &job->locks);
 	if (status != BATTEN_OK)
@@ -221,20 +222,22 @@ static batten_status run(fair_job *job)
 		              batten_hull_waterline_count(job->hull));
 	if (job->request->front)
 		return fair_front(job, folder);
+	const clock_t begun = clock();
 	const batten_status faired = batten_hull_fair(job->context, job->hull, options, &job->fairing);
+	job->cpu_seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
 	if (faired != BATTEN_OK && faired != BATTEN_INCOMPLETE)
 		return cli_failure("fair", job->context, faired);
 	status = measure_job(job);
 	if (status != BATTEN_OK)
 		return cli_failure("fair", job->context, status);
 	status = fair_files_write(job, folder);
-	if (status == BATTEN_OK)
-		status = tell(job, folder);
 	return status == BATTEN_OK ? faired : status;
 }
 
-static void release(fair_job *job)
+void fair_job_destroy(fair_job *job)
 {
+	if (!job)
+		return;
 	batten_fairing_destroy(job->fairing);
 	batten_hull_destroy(job->hull);
 	batten_hull_destroy(job->lower);
@@ -242,6 +245,28 @@ static void release(fair_job *job)
 	free(job->lines_before);
 	free(job->lines_after);
 	batten_context_destroy(job->context);
+	free(job);
+}
+
+/* By one method. */
+static batten_status fair_one(const fair_request *request, const char *folder)
+{
+	fair_job *job = calloc(1, sizeof *job);
+	if (!job) {
+		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));
+		return BATTEN_MEMORY;
+	}
+	job->request = request;
+	batten_status status = cli_context_create("fair", &request->common, &job->context);
+	if (status == BATTEN_OK)
+		status = fair_job_run(job, folder);
+	/* A front has been told already. */
+	if (job->fairing && (status == BATTEN_OK || status == BATTEN_INCOMPLETE)) {
+		const batten_status told = tell(job, folder);
+		status = told == BATTEN_OK ? status : told;
+	}
+	fair_job_destroy(job);
+	return status;
 }
 
 static batten_status parse(int argc, char **argv, fair_request *request, bool *done)
@@ -249,7 +274,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 	const cli_option options[] = {
 		{ "out", CLI_TEXT, &request->out, "DIR", "folder for the results (NAME-faired)" },
 		{ "method", CLI_TEXT, &request->method, "NAME",
-		  "search (default), smooth, forward-approximation, forward-fit or inverse" },
+		  "search (default), smooth, forward-approximation, forward-fit, inverse, or all" },
 		{ "search", CLI_TEXT, &request->search, "NAME",
 		  "auto (default), multilevel, textbook (the thesis's, to compare with)" },
 		{ "variables", CLI_TEXT, &request->variables, "NAME",
@@ -331,16 +356,10 @@ batten_status cli_fair(int argc, char **argv)
 	batten_status status = parse(argc, argv, &request, &done);
 	if (status != BATTEN_OK || done)
 		return status;
-	fair_job *job = calloc(1, sizeof *job);
-	if (!job) {
-		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));
-		return BATTEN_MEMORY;
-	}
-	job->request = &request;
-	status = cli_context_create("fair", &request.common, &job->context);
-	if (status == BATTEN_OK)
-		status = run(job);
-	release(job);
-	free(job);
-	return status;
+	char folder[PATH_MAX];
+	status = choose_folder(&request, folder);
+	if (status != BATTEN_OK)
+		return status;
+	return strcmp(request.method, "all") == 0 ? fair_all(&request, folder)
+	                                          : fair_one(&request, folder);
 }

@@ -106,8 +106,22 @@ static json_t *representation(const batten_points *points, const curve_answer *a
 	return object;
 }
 
+static json_t *faired(const curve_request *request, const curve_fairing *fairing)
+{
+	if (!fairing->done)
+		return json_null();
+	const batten_line_facts *f = &fairing->facts;
+	json_t *object = json_pack("{s:s}", "method", request->method);
+	(void)json_object_set_new(object, "fn_before_per_m2", cli_json_number(f->fn_before_per_m2));
+	(void)json_object_set_new(object, "fn_after_per_m2", cli_json_number(f->fn_after_per_m2));
+	(void)json_object_set_new(object, "change_max_m", cli_json_number(f->change_max_m));
+	(void)json_object_set_new(object, "closeness_m2", cli_json_number(f->closeness_m2));
+	(void)json_object_set_new(object, "objective", cli_json_number(f->objective));
+	return object;
+}
+
 batten_status curve_print_json(const curve_request *request, const batten_points *points,
-                               const curve_answer *answers)
+                               const curve_answer *answers, const curve_fairing *fairing)
 {
 	json_t *object = json_pack(
 		"{s:s, s:s, s:s, s:s, s:i, s:i}", "batten", batten_version(), "name",
@@ -117,6 +131,7 @@ batten_status curve_print_json(const curve_request *request, const batten_points
 	json_t *list = json_array();
 	for (size_t k = 0; k < request->count; k++)
 		(void)json_array_append_new(list, representation(points, &answers[k]));
+	(void)json_object_set_new(object, "faired", faired(request, fairing));
 	(void)json_object_set_new(object, "representations", list);
 	return cli_json_print("curve", object);
 }

@@ -14,6 +14,9 @@ typedef struct curve_choice {
 
 typedef struct curve_request {
 	const char *path, *as, *parameter, *out;
+	const char *method, *faired;               /* NULL: not given */
+	unsigned fair_order, iterations, vertices; /* UINT_MAX: not given */
+	double w1, w2;                             /* NaN: not given */
 	unsigned order, points;
 	cli_common common;
 	batten_curve_parameter by;
@@ -28,12 +31,24 @@ typedef struct curve_answer {
 	batten_curve_datum *data; /* one a point */
 } curve_answer;
 
+/* What --method did. */
+typedef struct curve_fairing {
+	bool done;
+	batten_line_facts facts;
+} curve_fairing;
+
+/* Replaces the points by the faired ones where --method asks for it, and writes them to --faired.
+ * INCOMPLETE as batten_line_fair(); what went wrong is printed. */
+batten_status curve_fair(const curve_request *request, batten_context *context,
+                         batten_points **points, curve_fairing *out);
+void curve_fair_print(const curve_request *request, const curve_fairing *fairing);
+
 /* Reads --as, --parameter and --order into the choices. Returns OK or USAGE (message printed). */
 batten_status curve_read_request(curve_request *request);
 
 void curve_print_table(const curve_request *request, const batten_points *points,
                        const curve_answer *answers);
 batten_status curve_print_json(const curve_request *request, const batten_points *points,
-                               const curve_answer *answers);
+                               const curve_answer *answers, const curve_fairing *fairing);
 
 #endif

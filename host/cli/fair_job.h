@@ -50,6 +50,7 @@ typedef struct fair_job {
 	fair_state before, smoothed, after;
 	batten_line *lines_before, *lines_after;
 	size_t line_count;
+	double cpu_seconds;      /* of batten_hull_fair() */
 	char vulkan_driver[128]; /* "" when no picture was drawn */
 	size_t warning_count;
 	char warnings[FAIR_WARNING_LIMIT][FAIR_WARNING_SIZE];
@@ -61,6 +62,14 @@ batten_status fair_folder_make(const char *folder, bool *made);
 /* Sweeps the request's front in place of fairing and writes its files. INCOMPLETE: a search met its
  * limit. */
 batten_status fair_front(fair_job *job, const char *folder);
+
+/* Reads, fairs, measures and writes everything into the folder. A job is zeroed memory of the heap with
+ * request and context; INCOMPLETE as batten_hull_fair(). What went wrong is printed. */
+batten_status fair_job_run(fair_job *job, const char *folder);
+void fair_job_destroy(fair_job *job); /* NULL is allowed */
+
+/* Every method on one hull, side by side. */
+batten_status fair_all(const fair_request *request, const char *folder);
 
 /* Understands the request for a hull that has been read. */
 batten_status fair_options_read(const fair_request *request, const batten_hull *hull,

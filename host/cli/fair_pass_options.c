@@ -18,7 +18,7 @@ static batten_status read_method(const char *text, batten_fair_options *options)
 		const size_t used = strlen(list);
 		(void)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", word);
 	}
-	return cli_usage("fair", "--method: found '%s', expected one of %s", text, list);
+	return cli_usage("fair", "--method: found '%s', expected %s or all", text, list);
 }
 
 const char *fair_restore_text(batten_restore restore)
@@ -76,7 +76,8 @@ static batten_status check_search(const fair_request *request, const batten_fair
 	const struct {
 		const char *name;
 		bool given;
-	} list[] = { { "w1", !isnan(request->w1) },
+	} list[] = { { "front", request->front != NULL },
+		         { "w1", !isnan(request->w1) },
 		         { "w2", !isnan(request->w2) },
 		         { "lock", request->lock != NULL },
 		         { "lower", request->lower_path != NULL },

@@ -1544,6 +1544,32 @@ BATTEN_API batten_status batten_pass_batch(batten_context *context, const batten
                                            size_t count, unsigned iterations, const double *y_m,
                                            double *out_m, batten_run *run);
 
+/* A single line y(x) faired by a method of hulls but SMOOTH; its ends stay. SEARCH (thesis 7.3) lowers
+ * F = w1 FN + w2 CN by Hooke and Jeeves' search as published, FN = sum of squared second differences
+ * (1/m2), CN = sum of (y - given)^2 (m2). */
+typedef struct batten_line_options {
+	size_t struct_size;
+	batten_fair_method method; /* FORWARD_APPROXIMATION */
+	batten_pass_options pass;  /* its method is the one above */
+	unsigned iterations;       /* of the last three methods, 1..10000; 1 */
+	double w1, w2;             /* of SEARCH, >= 0, not both 0; 1 and 1 */
+	double last_step;          /* of SEARCH, in parts of the range of y; 1e-9 */
+} batten_line_options;
+BATTEN_API void batten_line_options_default(batten_line_options *options);
+
+typedef struct batten_line_facts {
+	double fn_before_per_m2, fn_after_per_m2;
+	double change_max_m, closeness_m2;
+	double objective; /* of SEARCH, else NaN */
+} batten_line_facts;
+
+/* y_m is the caller's, [points]; options and facts may be NULL. Returns INCOMPLETE when a search met
+ * its limit of a million sweeps. Errors: USAGE (options, a space curve, fewer than three points), INPUT
+ * (x does not grow), as batten_pass_create_line, MEMORY. */
+BATTEN_API batten_status batten_line_fair(batten_context *context, const batten_points *points,
+                                          const batten_line_options *options, double *y_m,
+                                          batten_line_facts *facts);
+
 /* ------------------------------------------------------------------------------------------------
  * Fairing a hull
  * --------------------------------------------------------------------------------------------- */
@@ -1824,6 +1850,23 @@ BATTEN_API batten_status batten_picture_curvature(batten_context *context, const
  * MEMORY. */
 BATTEN_API batten_status batten_picture_lines(batten_context *context, const batten_hull *before,
                                               const batten_hull *after, const char *path);
+
+/* Hulls side by side. Arrays borrowed for the call. */
+typedef struct batten_comparison {
+	const char *title;
+	size_t hull_count;               /* 1..8 */
+	const batten_hull *const *hulls; /* the first lies pale under the lines of the others */
+	const char *const *labels;
+	size_t row_count; /* 0..40 */
+	const char *const *row_names;
+	const double *values; /* [row_count][hull_count]; NaN is a dash */
+} batten_comparison;
+
+/* One sheet as SVG: of each hull its body plan, its waterlines and a flat map of its mean curvature, on
+ * one scale, and under them a table. Errors: USAGE (counts), INPUT (nothing to draw), IO, MEMORY. */
+BATTEN_API batten_status batten_picture_comparison(batten_context *context,
+                                                   const batten_comparison *comparison,
+                                                   const char *path);
 
 /* Curves through or near the same points, with their porcupines, and the curvature of each over its
  * arc length, as SVG (Letcher 3.3). count 1..8, all of one dimension. Errors: USAGE, IO, MEMORY. */

@@ -1,0 +1,120 @@
+/* Passes over many hulls: devices equal the C path bit for bit; a hull's result is its own. */
+#include "unit/pass_fixture.h"
+
+enum { HULLS = 150 }; /* more than the groups of a device take at a time */
+
+typedef struct batch {
+	size_t values;
+	double *y, *found, *known;
+} batch;
+
+static batten_pass *make_pass(batten_context *context, const batten_hull *hull, int method,
+                              batten_precision precision, int device)
+{
+	batten_pass_options options;
+	batten_pass *pass = NULL;
+	batten_pass_options_default(&options);
+	options.method = (batten_fair_method)method;
+	options.order = 4;
+	options.order_sections = 3;
+	options.precision = precision;
+	options.device = device;
+	if (batten_pass_create(context, hull, &options, &pass) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(context));
+	return pass;
+}
+
+/* The hull, each time with other noise. */
+static batch make_batch(const batten_pass *pass, const batten_hull *hull)
+{
+	batch b = { .values = batten_pass_describe(pass).value_count };
+	b.y = malloc(HULLS * b.values * sizeof *b.y);
+	b.found = malloc(HULLS * b.values * sizeof *b.found);
+	b.known = malloc(HULLS * b.values * sizeof *b.known);
+	assert_true(b.y && b.found && b.known);
+	uint32_t state = 7;
+	for (size_t h = 0; h < HULLS; h++)
+		batten_pass_values(pass, hull, b.y + h * b.values);
+	for (size_t n = 0; n < HULLS * b.values; n++) {
+		state = state * 1664525u + 1013904223u;
+		if (b.y[n] > 0)
+			b.y[n] *= 1 + 0.01 * (double)(state >> 8) / (1u << 24);
+	}
+	return b;
+}
+
+static void release_batch(batch *b)
+{
+	free(b->y);
+	free(b->found);
+	free(b->known);
+}
+
+static void check_equal(batten_context *context, const batten_hull *hull, int method,
+                        batten_precision precision)
+{
+	batten_pass *pass = make_pass(context, hull, method, precision, BATTEN_DEVICE_AUTO);
+	batten_pass *plain = make_pass(context, hull, method, precision, BATTEN_DEVICE_REFERENCE);
+	batch b = make_batch(pass, hull);
+	const size_t size = HULLS * b.values * sizeof *b.y;
+	batten_run run;
+	assert_int_equal(batten_pass_batch(context, pass, HULLS, 3, b.y, b.found, &run), BATTEN_OK);
+	assert_true(run.strict);
+	assert_int_equal(batten_pass_batch(context, plain, HULLS, 3, b.y, b.known, NULL), BATTEN_OK);
+	assert_memory_equal(b.found, b.known, size);
+	/* Alone, as in the batch; and three iterations are three times one. */
+	double *one = b.found;
+	const size_t last = (HULLS - 1) * b.values;
+	assert_int_equal(batten_pass_batch(context, plain, 1, 3, b.y + last, one, NULL), BATTEN_OK);
+	assert_memory_equal(one, b.known + last, b.values * sizeof *one);
+	if (precision == BATTEN_F64) {
+		double *two = b.found + b.values;
+		double *three = b.found + 2 * b.values;
+		assert_int_equal(batten_pass_batch(context, plain, 1, 1, b.y, one, NULL), BATTEN_OK);
+		assert_int_equal(batten_pass_batch(context, plain, 1, 1, one, two, NULL), BATTEN_OK);
+		assert_int_equal(batten_pass_batch(context, plain, 1, 1, two, three, NULL), BATTEN_OK);
+		assert_memory_equal(three, b.known, b.values * sizeof *one);
+	}
+	release_batch(&b);
+	batten_pass_destroy(pass);
+	batten_pass_destroy(plain);
+}
+
+static void test_equal(void **state)
+{
+	static const char *const names[] = { "wigley_noisy", "npl_parent", "highspeed_craft" };
+	for (size_t n = 0; n < 3; n++) {
+		batten_hull *hull = read_hull(*state, names[n]);
+		for (int m = BATTEN_METHOD_FORWARD_APPROXIMATION; m <= BATTEN_METHOD_INVERSE; m++) {
+			check_equal(*state, hull, m, BATTEN_F64);
+			check_equal(*state, hull, m, BATTEN_F32);
+		}
+		batten_hull_destroy(hull);
+	}
+}
+
+static void test_refusals(void **state)
+{
+	batten_hull *hull = read_hull(*state, "wigley");
+	batten_pass *pass = make_pass(*state, hull, BATTEN_METHOD_INVERSE, BATTEN_F64,
+	                              BATTEN_DEVICE_REFERENCE);
+	batch b = make_batch(pass, hull);
+	assert_int_equal(batten_pass_batch(*state, pass, 1, 0, b.y, b.found, NULL), BATTEN_USAGE);
+	assert_int_equal(batten_pass_batch(*state, pass, 1, 10001, b.y, b.found, NULL), BATTEN_USAGE);
+	b.y[b.values + 3] = NAN;
+	assert_int_equal(batten_pass_batch(*state, pass, 2, 1, b.y, b.found, NULL), BATTEN_USAGE);
+	assert_non_null(strstr(batten_context_error(*state), "number 3 of hull 1"));
+	assert_int_equal(batten_pass_batch(*state, pass, 0, 1, b.y, b.found, NULL), BATTEN_OK);
+	release_batch(&b);
+	batten_pass_destroy(pass);
+	batten_hull_destroy(hull);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_equal, make_context, end_context),
+		cmocka_unit_test_setup_teardown(test_refusals, make_context, end_context),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
