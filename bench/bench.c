@@ -24,6 +24,8 @@ const bench_entry bench_entries[] = {
 	{ "variation.lackenby",
 	  "variants of a trawler and their hydrostatics, against the plain C path",
 	  bench_variation_lackenby },
+	{ "sweep.end_to_end", "a sweep on all cores, against the slowest of its stages",
+	  bench_sweep_end_to_end },
 	{ NULL, NULL, NULL },
 };
 

@@ -77,6 +77,8 @@ batten_status cli_convert(int argc, char **argv);
 batten_status cli_vary(int argc, char **argv);
 batten_status cli_sweep(int argc, char **argv);
 batten_status cli_report(int argc, char **argv);
+batten_status cli_merge(int argc, char **argv);
+batten_status cli_export(int argc, char **argv);
 batten_status cli_devices(int argc, char **argv);
 batten_status cli_selftest(int argc, char **argv);
 batten_status cli_bench(int argc, char **argv);

@@ -16,6 +16,8 @@ static const subcommand subcommands[] = {
 	{ "curve", cli_curve, "represent one line and measure how fair it is" },
 	{ "vary", cli_vary, "make a variant of a parent hull" },
 	{ "sweep", cli_sweep, "run a plan of many designs into a database" },
+	{ "merge", cli_merge, "put the shards of a sweep together" },
+	{ "export", cli_export, "one design of a sweep as offsets, IGES, STEP or STL" },
 	{ "surface", cli_surface, "fit a B-spline surface to a hull" },
 	{ "convert", cli_convert, "surfaces from one of JSON, IGES and STEP to another" },
 	{ "report", cli_report, "the result of a sweep as one page to look at in a browser" },
@@ -75,8 +77,8 @@ int main(int argc, char **argv)
 	cli_clean(found);
 	(void)fprintf(
 		stderr,
-		"batten: found '%s', a command was expected: fair, measure, curve, vary, sweep, surface, "
-		"convert, report, devices, selftest, bench\n",
+		"batten: found '%s', a command was expected: fair, measure, curve, vary, sweep, merge, export, "
+		"surface, convert, report, devices, selftest, bench\n",
 		found);
 	return batten_status_exit_code(BATTEN_USAGE);
 }

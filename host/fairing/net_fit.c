@@ -1,4 +1,5 @@
 #include "fairing/net_fit.h"
+#include "fairing/noise.h"
 
 #include <math.h>
 
@@ -92,4 +93,17 @@ batten_status net_fit(const batten_hull *hull, const batten_fit_options *options
 		batten_surface_destroy(*out);
 		*out = NULL;
 	}
+}
+
+batten_status batten_hull_fit_chosen(batten_context *context, const batten_hull *hull,
+                                     batten_surface **out, batten_fit_deviation *deviation)
+{
+	batten_fit_options options;
+	batten_fit_options_default(&options);
+	batten_fit_deviation ignored;
+	double noise_m = 0.0;
+	const batten_status status = noise_estimate(context, hull, &noise_m);
+	return status == BATTEN_OK
+	           ? net_fit(hull, &options, noise_m, out, deviation ? deviation : &ignored)
+	           : status;
 }

@@ -1823,6 +1823,33 @@ BATTEN_API batten_status batten_sweep_run(batten_context *context, const char *p
                                           const batten_sweep_options *options,
                                           batten_sweep_progress *out);
 
+/* Puts the databases of all shards of one sweep, in any order, together into one that equals, row for
+ * row, that of a sweep in one part; out_path is replaced at once or not at all. designs, how many it
+ * has, may be NULL. Errors: USAGE (no database, out_path among them), INPUT (another plan, a shard that is
+ * missing, given twice or not complete), IO, MEMORY. */
+BATTEN_API batten_status batten_sweep_merge(batten_context *context, const char *out_path,
+                                            size_t count, const char *const *paths,
+                                            uint64_t *designs);
+
+/* Design number id of a sweep as a hull: varied again from the plan that the database keeps, with the
+ * offsets that are kept there, or faired again where they are not. Errors: USAGE (no such design), INPUT
+ * (no database of a sweep; a design that failed), IO, MEMORY. */
+BATTEN_API batten_status batten_sweep_design(batten_context *context, const char *database_path,
+                                             uint64_t id, batten_hull **out);
+
+/* A surface fitted to a hull, its net as large as the offsets and their noise ask for. deviation may
+ * be NULL. Errors: as batten_hull_fit(). */
+BATTEN_API batten_status batten_hull_fit_chosen(batten_context *context, const batten_hull *hull,
+                                                batten_surface **out,
+                                                batten_fit_deviation *deviation);
+
+/* Writes both halves of a hull as triangles between samples of its surface, 1..64 steps a knot span, as
+ * binary STL (metres, normals outward); the file is replaced at once or not at all. Errors: USAGE, IO,
+ * MEMORY. */
+BATTEN_API batten_status batten_surface_write_stl(batten_context *context,
+                                                  const batten_surface *surface, size_t steps,
+                                                  const char *path);
+
 /* ------------------------------------------------------------------------------------------------
  * Pictures
  * --------------------------------------------------------------------------------------------- */

@@ -240,8 +240,17 @@ batten_status sweep_store_end_run(sweep_store *store, const store_run *run)
 	/* One file, which a reader may open from anywhere; a database that is not finished keeps its
 	 * log if this fails. */
 	if (status == BATTEN_OK)
-		(void)sqlite3_exec(store->database.handle, "PRAGMA journal_mode=DELETE", NULL, NULL, NULL);
+		store_drop_journal(store);
 	return status;
+}
+
+/* A locked database would keep its rollback journal, emptied; the lock goes with the next read. */
+void store_drop_journal(const sweep_store *store)
+{
+	(void)sqlite3_exec(store->database.handle,
+	                   "PRAGMA locking_mode=NORMAL; SELECT count(*) FROM meta;"
+	                   "PRAGMA journal_mode=DELETE",
+	                   NULL, NULL, NULL);
 }
 
 void sweep_store_close(sweep_store *store)

@@ -71,6 +71,8 @@ batten_status store_meta(const sweep_database *database, const char *key, char *
                          size_t *length);
 /* Statements that write a block. */
 batten_status store_prepare(sweep_store *store);
+/* One file is left: the log, or the journal beside it, is gone if that can be. */
+void store_drop_journal(const sweep_store *store);
 /* pareto of every design. */
 batten_status store_mark_front(const sweep_store *store);
 

@@ -33,6 +33,7 @@ equals 'log lines' "$(grep -c '^{.*"stored":40' a.log)" 1
 # ---- the same rows ----
 expect 0 sweep a.json --out b.db --block 7 --threads 1 --journal rollback
 same_rows a.db b.db
+[ "$(ls b.db*)" = b.db ] || fail "files beside the database: $(ls b.db*)"
 expect 0 sweep a.json --out c.db --block 5 --device reference --quiet
 same_rows a.db c.db
 
