@@ -52,21 +52,6 @@ static batten_status run_on_reference(batch_work *work)
 	return status;
 }
 
-/* The sound problems in the order they are handed out. */
-static size_t order_problems(const batch *b, size_t count, search_weights *weights, size_t *order)
-{
-	size_t sound = 0;
-	for (size_t p = 0; p < count; p++) {
-		const char *fault = search_problem_fault(b->plan, &b->problems[p]);
-		if (fault)
-			b->results[p] = search_result_refused(fault);
-		else
-			weights[sound++] = (search_weights){ b->problems[p].w1, b->problems[p].w2, p };
-	}
-	search_order(weights, sound, order);
-	return sound;
-}
-
 /* Two probes a direction and iteration, and what the searches counted beyond; the textbook search
  * counts all. */
 static batten_status count_probes(const batch *b, size_t count)
@@ -83,26 +68,6 @@ static batten_status count_probes(const batch *b, size_t count)
 	return BATTEN_OK;
 }
 
-static batten_status run_batch(batch *b, size_t count, batten_run *run)
-{
-	batten_context *context = b->work.context;
-	size_t *order = batten_allocate(context, count, sizeof *order);
-	search_weights *weights = batten_allocate(context, count, sizeof *weights);
-	batten_status status = order && weights ? BATTEN_OK : BATTEN_MEMORY;
-	if (status == BATTEN_OK) {
-		const size_t sound = order_problems(b, count, weights, order);
-		status = work_queue_create(context, order, sound, &b->work.queue);
-	}
-	if (status == BATTEN_OK)
-		status = batch_work_run(&b->work, run);
-	if (status == BATTEN_OK && b->plan->options.algorithm != BATTEN_ALGORITHM_TEXTBOOK)
-		status = count_probes(b, count);
-	work_queue_release(context, &b->work.queue);
-	batten_release(context, weights);
-	batten_release(context, order);
-	return status;
-}
-
 batten_status multilevel_batch_run(const search_call *call, batten_run *run)
 {
 	batch b = { .work = { .context = call->context,
@@ -117,7 +82,10 @@ batten_status multilevel_batch_run(const search_call *call, batten_run *run)
 	batten_status status = search_plan_create(call->context, call->grid, call->count,
 	                                          call->problems, call->options, &b.plan);
 	if (status == BATTEN_OK && call->count > 0)
-		status = run_batch(&b, call->count, run);
+		status = search_batch_work(call, b.plan, &b.work, run);
+	if (status == BATTEN_OK && call->count > 0 &&
+	    call->options->algorithm != BATTEN_ALGORITHM_TEXTBOOK)
+		status = count_probes(&b, call->count);
 	search_plan_destroy(b.plan);
 	return status;
 }

@@ -1,7 +1,6 @@
 /* batten_search_batch: which algorithm runs a batch. */
 #include "batch/search_batch.h"
 
-#include "batch/search_plan.h"
 #include "batch/search_result.h"
 
 /* Each algorithm's way to run a batch; NULL: this version lacks it. */
@@ -9,22 +8,79 @@ typedef batten_status search_algorithm_run(const search_call *call, batten_run *
 static search_algorithm_run *const algorithms[] = {
 	[BATTEN_ALGORITHM_TEXTBOOK] = multilevel_batch_run,
 	[BATTEN_ALGORITHM_MULTILEVEL] = multilevel_batch_run,
-	[BATTEN_ALGORITHM_BLOCK] = NULL,
+	[BATTEN_ALGORITHM_BLOCK] = block_batch_run,
 };
+enum { STRETCHED = 2 };
 enum { ALGORITHM_COUNT = sizeof algorithms / sizeof algorithms[0] };
 
-/* What runs the batch; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
-static batten_status choose(batten_context *context, batten_search_options *options,
-                            search_algorithm_run **run)
+/* Whether the mean spacings differ so much that lines along the finer one hold most of the curvature of
+ * the objective: the block search lives on that. */
+static bool is_stretched(const batten_grid *grid)
 {
+	if (grid->station_count < 2 || grid->waterline_count < 2)
+		return false;
+	const size_t i = grid->station_count - 1;
+	const size_t k = grid->waterline_count - 1;
+	const double x = (grid->x_m[i] - grid->x_m[0]) / (double)i;
+	const double z = (grid->z_m[k] - grid->z_m[0]) / (double)k;
+	return x >= STRETCHED * z || z >= STRETCHED * x;
+}
+
+/* What runs the batch; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
+static batten_status choose(batten_context *context, const batten_grid *grid,
+                            batten_search_options *options, search_algorithm_run **run)
+{
+	const bool plain = options->fairness == BATTEN_FAIRNESS_BENDING &&
+	                   options->longitudinal_weight == 1.0 && options->transverse_weight == 1.0;
 	if (options->algorithm == BATTEN_ALGORITHM_AUTO)
-		options->algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+		options->algorithm = plain && is_stretched(grid) ? BATTEN_ALGORITHM_BLOCK
+		                                                 : BATTEN_ALGORITHM_MULTILEVEL;
 	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
 	if (!*run)
 		return batten_fail(context, BATTEN_USAGE,
-		                   "search algorithm %s: auto, multilevel or textbook is expected",
+		                   "search algorithm %s: auto, textbook, multilevel or block is expected",
 		                   batten_search_algorithm_text(options->algorithm));
+	if (options->algorithm == BATTEN_ALGORITHM_BLOCK && !plain)
+		return batten_fail(context, BATTEN_USAGE,
+		                   "the block search knows bending with weights 1 and 1 only: multilevel "
+		                   "or auto is expected");
 	return BATTEN_OK;
+}
+
+/* The sound problems in the order they are handed out. */
+static size_t order_problems(const search_call *call, const search_plan *plan,
+                             search_weights *weights, size_t *order)
+{
+	size_t sound = 0;
+	for (size_t p = 0; p < call->count; p++) {
+		const batten_search_problem *problem = &call->problems[p];
+		const char *fault = search_problem_fault(plan, problem);
+		if (fault)
+			call->results[p] = search_result_refused(fault);
+		else
+			weights[sound++] = (search_weights){ problem->w1, problem->w2, p };
+	}
+	search_order(weights, sound, order);
+	return sound;
+}
+
+batten_status search_batch_work(const search_call *call, const search_plan *plan, batch_work *work,
+                                batten_run *run)
+{
+	batten_context *context = call->context;
+	size_t *order = batten_allocate(context, call->count, sizeof *order);
+	search_weights *weights = batten_allocate(context, call->count, sizeof *weights);
+	batten_status status = order && weights ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK) {
+		const size_t sound = order_problems(call, plan, weights, order);
+		status = work_queue_create(context, order, sound, &work->queue);
+	}
+	if (status == BATTEN_OK)
+		status = batch_work_run(work, run);
+	work_queue_release(context, &work->queue);
+	batten_release(context, weights);
+	batten_release(context, order);
+	return status;
 }
 
 batten_status batten_search_batch(batten_context *context, const batten_grid *grid, size_t count,
@@ -37,7 +93,7 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 	search_algorithm_run *algorithm = NULL;
 	batten_status status = search_options_check(context, options, &chosen);
 	if (status == BATTEN_OK)
-		status = choose(context, &chosen, &algorithm);
+		status = choose(context, grid, &chosen, &algorithm);
 	if (status != BATTEN_OK)
 		return status;
 	const search_call call = { context, grid, count, problems, &chosen, y_m, results };

@@ -3,7 +3,8 @@
 #ifndef BATTEN_BATCH_SEARCH_BATCH_H
 #define BATTEN_BATCH_SEARCH_BATCH_H
 
-#include "core/context.h"
+#include "batch/search_plan.h"
+#include "batch/workers.h"
 
 typedef struct search_call {
 	batten_context *context;
@@ -18,5 +19,11 @@ typedef struct search_call {
 /* Of the textbook search too. Runs the batch: every result is set, but for its algorithm, or an error returned. run is told what
  * ran. Errors: USAGE, DEVICE, KERNEL, MEMORY. */
 batten_status multilevel_batch_run(const search_call *call, batten_run *run);
+batten_status block_batch_run(const search_call *call, batten_run *run);
+
+/* What every algorithm does with a plan: refuses what cannot be searched, queues the rest by w2/w1 and
+ * works the queue off. Errors: those of batch_work_run(). */
+batten_status search_batch_work(const search_call *call, const search_plan *plan, batch_work *work,
+                                batten_run *run);
 
 #endif

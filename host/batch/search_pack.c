@@ -49,9 +49,8 @@ static bool on_hull(const batten_search_problem *problem, size_t node)
 	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
 }
 
-/* Whether the node and its eight neighbours are all on the hull: only there has the energy a term. */
-static bool is_inside(const search_plan *plan, const batten_search_problem *problem, size_t i,
-                      size_t k)
+bool search_has_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                     size_t k)
 {
 	const size_t stations = plan->station_count;
 	if (i == 0 || k == 0 || i + 1 == stations || k + 1 == plan->waterline_count)
@@ -68,6 +67,11 @@ static double clamp(double value, double lower, double upper)
 	return value < lower ? lower : value > upper ? upper : value;
 }
 
+double search_start_of(const batten_search_problem *problem, size_t node)
+{
+	return clamp(problem->start_m[node], problem->lower_m[node], problem->upper_m[node]);
+}
+
 static void pack_node(const search_plan *plan, const batten_search_problem *problem, size_t i,
                       size_t k, size_t lane, size_t lanes, void *arrays)
 {
@@ -80,12 +84,12 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 	const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
 	const double lower = problem->lower_m[node];
 	const double upper = problem->upper_m[node];
-	put(plan, arrays, SEARCH_ARRAY_Y * array + at, clamp(problem->start_m[node], lower, upper));
+	put(plan, arrays, SEARCH_ARRAY_Y * array + at, search_start_of(problem, node));
 	put(plan, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
 	put(plan, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
 	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
 	put(plan, arrays, SEARCH_ARRAY_CLOSE * array + at, problem->w2 * weight * cell / (h2 * h2));
-	if (is_inside(plan, problem, i, k))
+	if (search_has_term(plan, problem, i, k))
 		put(plan, arrays, SEARCH_ARRAY_BEND * array + at, problem->w1 * cell);
 }
 
@@ -109,15 +113,14 @@ void search_pack(const search_plan *plan, const batten_search_problem *problem, 
 	put(plan, settings, SEARCH_SETTING_BLUNT * lanes + lane, blunt * blunt);
 }
 
-/* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */
-static double end_of_node(const search_plan *plan, const batten_search_problem *problem,
+double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,
                           size_t node, double found)
 {
 	if (!on_hull(problem, node))
 		return problem->start_m[node];
 	const double lower = problem->lower_m[node];
 	const double upper = problem->upper_m[node];
-	const double start = clamp(problem->start_m[node], lower, upper);
+	const double start = search_start_of(problem, node);
 	if (plan->options.precision == BATTEN_F32 && found == (double)(float)start)
 		return start;
 	return clamp(found, lower, upper);
@@ -131,7 +134,7 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 		for (size_t i = 0; i < plan->station_count; i++) {
 			const size_t node = k * plan->station_count + i;
 			const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
-			y_m[node] = end_of_node(plan, problem, node, get(plan, y, place * lanes + lane));
+			y_m[node] = search_end_of_node(plan, problem, node, get(plan, y, place * lanes + lane));
 		}
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)

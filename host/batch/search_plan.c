@@ -68,11 +68,11 @@ int search_widths_choose(size_t count_a, double spacing_a, size_t count_b, doubl
 	return levels;
 }
 
-static void choose_levels(search_plan *plan, double spacing_x, double spacing_z)
+static void choose_levels(search_plan *plan)
 {
 	search_width widths[SEARCH_LEVEL_LIMIT];
-	plan->level_count = search_widths_choose(plan->station_count, spacing_x, plan->waterline_count,
-	                                         spacing_z, widths);
+	plan->level_count = search_widths_choose(plan->station_count, plan->spacing_x,
+	                                         plan->waterline_count, plan->spacing_z, widths);
 	for (int l = 0; l < plan->level_count; l++) {
 		plan->levels[l].width_x = widths[l].a;
 		plan->levels[l].width_z = widths[l].b;
@@ -233,13 +233,12 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 		return BATTEN_MEMORY;
 	lay_out_direction(grid->x_m, grid->station_count, plan->stencil_x, plan->cell_x);
 	lay_out_direction(grid->z_m, grid->waterline_count, plan->stencil_z, plan->cell_z);
-	double spacing_x = 0.0;
-	double spacing_z = 0.0;
-	batten_status status = typical_spacing(context, grid->x_m, grid->station_count, &spacing_x);
+	batten_status status = typical_spacing(context, grid->x_m, grid->station_count,
+	                                       &plan->spacing_x);
 	if (status == BATTEN_OK)
-		status = typical_spacing(context, grid->z_m, grid->waterline_count, &spacing_z);
+		status = typical_spacing(context, grid->z_m, grid->waterline_count, &plan->spacing_z);
 	if (status == BATTEN_OK)
-		choose_levels(plan, spacing_x, spacing_z);
+		choose_levels(plan);
 	return status;
 }
 
@@ -300,7 +299,7 @@ batten_status search_plan_create(batten_context *context, const batten_grid *gri
 		                     grid->station_count, grid->waterline_count, F32_NODE_LIMIT);
 	if (status == BATTEN_OK)
 		status = lay_out_grid(plan, grid);
-	if (status == BATTEN_OK)
+	if (status == BATTEN_OK && plan->options.algorithm != BATTEN_ALGORITHM_BLOCK)
 		status = list_directions(plan, count, problems);
 	if (status != BATTEN_OK) {
 		search_plan_destroy(plan);

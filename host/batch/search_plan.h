@@ -24,6 +24,7 @@ typedef struct search_plan {
 		node_count;                /* node_count with a ring of one node around */
 	double *stencil_x, *stencil_z; /* STENCIL_SIZE a station, a waterline */
 	double *cell_x, *cell_z;       /* half-sum spacings */
+	double spacing_x, spacing_z;   /* medians */
 	int level_count;
 	search_level levels[SEARCH_LEVEL_LIMIT];
 	int32_t *centres; /* station, waterline; every level and colour one after the other */
@@ -58,7 +59,7 @@ const char *search_weights_fault(batten_precision precision, double w1, double w
                                  double half_beam_m);
 
 /* Checks the batch and lays it out. The directions are those that can move a node of at least one of
- * the problems. Errors: USAGE, MEMORY. */
+ * the problems; the block search has none. Errors: USAGE, MEMORY. */
 batten_status search_plan_create(batten_context *context, const batten_grid *grid, size_t count,
                                  const batten_search_problem *problems,
                                  const batten_search_options *options, search_plan **out);

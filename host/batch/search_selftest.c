@@ -66,7 +66,7 @@ static void compare(const double *y, const batten_search_result *found, const do
 		*worst = off;
 }
 
-static batten_status run_both(search_engine *engine, const search_plan *plan,
+static batten_status run_both(const search_selftest_sides *sides, const search_plan *plan,
                               const batten_search_problem *problems, size_t count, double *y,
                               batten_selftest *result)
 {
@@ -75,33 +75,30 @@ static batten_status run_both(search_engine *engine, const search_plan *plan,
 	for (size_t p = 0; p < count; p++)
 		which[p] = p;
 	const double begun = batten_wall_seconds();
-	batten_status status = search_engine_run(engine, plan, problems, which, count, y, found);
+	batten_status status = sides->run(sides->engine, plan, problems, which, count, y, found);
 	result->run_s = batten_wall_seconds() - begun;
-	search_reference reference = { 0 };
-	if (status == BATTEN_OK)
-		status = search_reference_create(plan, &reference);
 	double worst = 0.0;
 	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
 		double known_y[NODES];
 		batten_search_result known = { 0 };
-		search_reference_run(&reference, &problems[p], known_y, &known);
-		compare(y + p * NODES, &found[p], known_y, &known, result, &worst);
+		status = sides->run_known(plan, &problems[p], known_y, &known);
+		if (status == BATTEN_OK)
+			compare(y + p * NODES, &found[p], known_y, &known, result, &worst);
 	}
-	search_reference_release(&reference);
 	if (status == BATTEN_OK)
 		batch_engine_compare(result, worst, result->precision == BATTEN_F64 ? 1e-6 : 1e-3,
 		                     "the objective");
 	return status;
 }
 
-batten_status search_selftest_run(search_engine *engine, batten_selftest *result)
+batten_status search_selftest_compare(batten_context *context, const search_selftest_sides *sides,
+                                      const batten_search_options *options, unsigned lanes,
+                                      batten_selftest *result)
 {
-	batten_context *context = search_engine_base(engine)->context;
-	const search_shape *shape = search_engine_shape(engine);
 	test_hull hull;
 	make_hull(&hull);
 	/* Two full groups of lanes and one more, so that idle lanes are met too. */
-	const size_t count = 2 * shape->lanes + 1;
+	const size_t count = 2 * lanes + 1;
 	batten_search_problem problems[2 * MOST_LANES + 1];
 	for (size_t p = 0; p < count; p++)
 		problems[p] = (batten_search_problem){ .nodes = hull.nodes,
@@ -113,6 +110,40 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 			                                   .w2 = ldexp(1.0, (int)p % 20),
 			                                   .half_beam_m = 0.75 };
 	const batten_grid grid = { STATIONS, WATERLINES, hull.x, hull.z };
+	search_plan *plan = NULL;
+	batten_status status = search_plan_create(context, &grid, count, problems, options, &plan);
+	double *y = batten_allocate(context, count, NODES * sizeof *y);
+	if (status == BATTEN_OK && !y)
+		status = BATTEN_MEMORY;
+	if (status == BATTEN_OK)
+		status = run_both(sides, plan, problems, count, y, result);
+	search_plan_destroy(plan);
+	batten_release(context, y);
+	return status;
+}
+
+static batten_status run_multilevel(void *engine, const search_plan *plan,
+                                    const batten_search_problem *problems, const size_t *which,
+                                    size_t count, double *y_m, batten_search_result *results)
+{
+	return search_engine_run(engine, plan, problems, which, count, y_m, results);
+}
+
+static batten_status run_known(const search_plan *plan, const batten_search_problem *problem,
+                               double *y_m, batten_search_result *result)
+{
+	search_reference reference = { 0 };
+	const batten_status status = search_reference_create(plan, &reference);
+	if (status == BATTEN_OK)
+		search_reference_run(&reference, problem, y_m, result);
+	search_reference_release(&reference);
+	return status;
+}
+
+batten_status search_selftest_run(search_engine *engine, batten_selftest *result)
+{
+	const search_shape *shape = search_engine_shape(engine);
+	const search_selftest_sides sides = { engine, run_multilevel, run_known };
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.precision = shape->precision;
@@ -124,14 +155,6 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 		options.last_step = 1e-3; /* it takes hundreds of sweeps to what the other ends with */
 	if (shape->fairness != GRID_BENDING)
 		options.longitudinal_weight = 2.0;
-	search_plan *plan = NULL;
-	batten_status status = search_plan_create(context, &grid, count, problems, &options, &plan);
-	double *y = batten_allocate(context, count, NODES * sizeof *y);
-	if (status == BATTEN_OK && !y)
-		status = BATTEN_MEMORY;
-	if (status == BATTEN_OK)
-		status = run_both(engine, plan, problems, count, y, result);
-	search_plan_destroy(plan);
-	batten_release(context, y);
-	return status;
+	return search_selftest_compare(search_engine_base(engine)->context, &sides, &options,
+	                               shape->lanes, result);
 }

@@ -1,4 +1,5 @@
 /* batten_device_selftest: every kernel in the shape a device would run it in. */
+#include "batch/block_engine.h"
 #include "batch/net_engine.h"
 #include "batch/pass_engine.h"
 #include "batch/search_engine.h"
@@ -36,6 +37,24 @@ static batten_status test_textbook(batten_context *context, size_t index,
                                    batten_selftest *result)
 {
 	return test_offsets(context, index, device, precision, BATTEN_ALGORITHM_TEXTBOOK, result);
+}
+
+static batten_status test_block(batten_context *context, size_t index, const batten_device *device,
+                                batten_precision precision, batten_selftest *result)
+{
+	const double x[] = { 0.0, 1.0, 2.0 };
+	const batten_grid grid = { 3, 3, x, x };
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.precision = precision;
+	options.algorithm = BATTEN_ALGORITHM_BLOCK;
+	search_plan *plan = NULL;
+	batch_engine *engine = NULL;
+	batten_status status = search_plan_create(context, &grid, 0, NULL, &options, &plan);
+	if (status == BATTEN_OK)
+		status = block_engine_open(plan, index, device, &engine, result);
+	search_plan_destroy(plan);
+	return status;
 }
 
 static batten_status test_surfaces(batten_context *context, size_t index,
@@ -92,8 +111,9 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
 	static batten_status (*const tests[])(
 		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search, test_textbook, test_surfaces, test_nets, test_passes };
-	enum { PRECISIONS = 2, TESTS = 5 };
+		batten_selftest *) = { test_search,   test_textbook, test_block,
+		                       test_surfaces, test_nets,     test_passes };
+	enum { PRECISIONS = 2, TESTS = 6 };
 	*count = (size_t)PRECISIONS * TESTS + 1;
 	for (size_t t = 0; t + 1 < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,

@@ -21,7 +21,7 @@ static batten_status check_word(const char *option, const char *found, const cha
 
 static batten_status check_words(const fair_request *request)
 {
-	static const char *const searches[] = { "auto", "textbook", "multilevel", NULL };
+	static const char *const searches[] = { "auto", "textbook", "multilevel", "block", NULL };
 	static const char *const variables[] = { "offsets", "net", NULL };
 	batten_status status = check_word("search", request->search, searches);
 	if (status == BATTEN_OK)
@@ -123,15 +123,16 @@ enum { TEXTBOOK_ITERATIONS = 20000 };
 
 static batten_status read_search(const fair_request *request, batten_search_options *options)
 {
-	if (strcmp(request->search, "multilevel") == 0)
-		options->algorithm = BATTEN_ALGORITHM_MULTILEVEL;
-	if (strcmp(request->search, "textbook") != 0)
-		return BATTEN_OK;
-	if (strcmp(request->variables, "net") == 0)
-		return cli_usage("fair", "--search: found 'textbook', expected auto or multilevel with "
-		                         "--variables net");
-	options->algorithm = BATTEN_ALGORITHM_TEXTBOOK;
-	options->iteration_limit = TEXTBOOK_ITERATIONS;
+	for (int a = BATTEN_ALGORITHM_AUTO; a <= BATTEN_ALGORITHM_BLOCK; a++)
+		if (strcmp(request->search, batten_search_algorithm_text((batten_search_algorithm)a)) == 0)
+			options->algorithm = (batten_search_algorithm)a;
+	if (strcmp(request->variables, "net") == 0 && options->algorithm != BATTEN_ALGORITHM_AUTO &&
+	    options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)
+		return cli_usage("fair",
+		                 "--search: found '%s', expected auto or multilevel with --variables net",
+		                 request->search);
+	if (options->algorithm == BATTEN_ALGORITHM_TEXTBOOK)
+		options->iteration_limit = TEXTBOOK_ITERATIONS;
 	return BATTEN_OK;
 }
 

@@ -386,10 +386,12 @@ typedef struct batten_search_problem {
 
 /* How a search looks for the minimum (kernels/README.md). */
 typedef enum batten_search_algorithm {
-	BATTEN_ALGORITHM_AUTO,       /* the fastest that applies */
+	BATTEN_ALGORITHM_AUTO,       /* BLOCK where it applies and one mean spacing is twice the other
+	                                or more, else MULTILEVEL */
 	BATTEN_ALGORITHM_TEXTBOOK,   /* Hooke and Jeeves as published (thesis 7.2): to compare with */
 	BATTEN_ALGORITHM_MULTILEVEL, /* probes along hats of several widths: any objective */
-	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand */
+	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand: plain bending
+	                                of offset grids, 20 to 50 times faster */
 } batten_search_algorithm;
 /* "auto", "textbook", "multilevel", "block". */
 BATTEN_API const char *batten_search_algorithm_text(batten_search_algorithm algorithm);
@@ -411,6 +413,8 @@ typedef struct batten_search_options {
 	 * entries of the shape operator in this frame become a k11, sqrt(a b) k12, b k22 in every
 	 * fairness: bending is a^2 k11^2 + 2 a b k12^2 + b^2 k22^2. 0 or 1e-6 .. 1e6, not both 0; 1, 1. */
 	double longitudinal_weight, transverse_weight;
+	/* BLOCK: slopes of the integrand by their formulas, not by probes of it; false. */
+	bool analytic_slopes;
 } batten_search_options;
 BATTEN_API void batten_search_options_default(batten_search_options *options);
 

@@ -1,0 +1,233 @@
+#include "batch/block_engine.h"
+
+#include "batch/block_pack.h"
+#include "batch/block_selftest.h"
+#include "batch/search_pack.h"
+#include "kernels/kernel_sources.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Most bytes of packed searches in one launch, searches a lane of it, and groups a compute unit: lanes
+ * that come free take the next search, so the more of them, the less do lanes stand idle. */
+enum { BLOCK_BYTES = 32 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
+
+/* Numbers of a group's state in one lane. */
+static size_t state_numbers(const search_plan *plan, size_t work_group)
+{
+	const block_lines_shape shape = block_lines_of(plan);
+	return BLOCK_STATE_COUNT * shape.lines * shape.length +
+	       BLOCK_PROBE_COUNT * (work_group + 2) * shape.length;
+}
+
+static size_t local_numbers(const search_plan *plan)
+{
+	return BLOCK_SUM_COUNT * block_lines_of(plan).lines + BLOCK_OUTCOME_COUNT + 1;
+}
+
+batten_status block_engine_open(const search_plan *plan, size_t index, const batten_device *device,
+                                batch_engine **out, batten_selftest *result)
+{
+	batch_engine_recipe recipe = { .kernel = "block_search",
+		                           .source = kernel_source_block_search,
+		                           .device = index,
+		                           .precision = plan->options.precision,
+		                           .lanes = plan->options.lanes,
+		                           .work_group = plan->options.work_group };
+	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	const size_t numbers = state_numbers(plan, recipe.work_group) + local_numbers(plan);
+	const bool global = numbers * recipe.lanes * batch_engine_number_size(recipe.precision) >
+	                    device->local_memory_bytes;
+	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
+	               global ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local",
+	               plan->options.analytic_slopes);
+	batch_engine *made = batch_engine_find(plan->context, &recipe);
+	batten_status status = BATTEN_OK;
+	if (!made) {
+		made = batten_allocate(plan->context, 1, sizeof *made);
+		if (!made)
+			return BATTEN_MEMORY;
+		status = batch_engine_start(made, plan->context, &recipe);
+		if (status == BATTEN_OK)
+			status = batch_engine_judge(made, block_selftest_run(made, plan, &made->test));
+		if (status == BATTEN_OK)
+			batch_engine_keep(made);
+	}
+	if (result)
+		*result = made->test;
+	if (status != BATTEN_OK)
+		batch_engine_destroy(made);
+	else
+		*out = made;
+	return status;
+}
+
+static size_t units_of(const batch_engine *engine)
+{
+	const batten_device *device = batch_engine_device(engine);
+	const size_t units = device->compute_units ? device->compute_units : 1;
+	return units * (device->is_cpu ? GROUPS_A_UNIT : 8 * GROUPS_A_UNIT);
+}
+
+size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
+{
+	const batten_device *device = batch_engine_device(engine);
+	const block_lines_shape shape = block_lines_of(plan);
+	const size_t lanes = engine->recipe.lanes;
+	const size_t search_bytes = (BLOCK_INPUT_COUNT + 1) * shape.lines * shape.length *
+	                            search_scalar_size(plan);
+	size_t limit = BLOCK_BYTES;
+	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
+		limit = (size_t)device->max_allocation_bytes;
+	const size_t most = engine->context->options.max_memory;
+	if (most > 0 && limit > most)
+		limit = most;
+	size_t searches = units_of(engine) * lanes * SEARCHES_A_LANE;
+	if (searches > limit / search_bytes)
+		searches = limit / search_bytes;
+	return searches < lanes ? lanes : searches / lanes * lanes;
+}
+
+/* Host memory and device buffers of one launch. */
+typedef struct block {
+	const search_plan *plan;
+	size_t count, share, groups;
+	size_t number, nodes; /* bytes of a number; numbers of an array */
+	void *stencils, *inputs, *settings, *y, *outcomes;
+	int32_t *turns;
+	device_buffer *stencils_on, *inputs_on, *settings_on, *y_on, *outcomes_on, *turns_on, *state_on;
+} block;
+
+static void block_release(batch_engine *engine, block *b)
+{
+	device_buffer *buffers[] = { b->stencils_on, b->inputs_on, b->settings_on, b->y_on,
+		                         b->outcomes_on, b->turns_on,  b->state_on };
+	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+		device_buffer_destroy(buffers[i]);
+	void *memory[] = { b->stencils, b->inputs, b->settings, b->y, b->outcomes, b->turns };
+	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
+		batten_release(engine->context, memory[i]);
+}
+
+/* Every group gets the same number of searches, whole lanes of them. */
+static batten_status block_allocate(batch_engine *engine, block *b)
+{
+	batten_context *context = engine->context;
+	const block_lines_shape shape = block_lines_of(b->plan);
+	const size_t lanes = engine->recipe.lanes;
+	const size_t units = units_of(engine);
+	b->number = search_scalar_size(b->plan);
+	b->nodes = shape.lines * shape.length;
+	b->share = ((b->count + units - 1) / units + lanes - 1) / lanes * lanes;
+	b->groups = (b->count + b->share - 1) / b->share;
+	b->stencils = batten_allocate(context, block_stencil_count(b->plan), b->number);
+	b->inputs = batten_allocate(context, b->count * BLOCK_INPUT_COUNT, b->nodes * b->number);
+	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
+	b->y = batten_allocate(context, b->count, b->nodes * b->number);
+	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);
+	b->turns = batten_allocate(context, b->groups, sizeof *b->turns);
+	return b->stencils && b->inputs && b->settings && b->y && b->outcomes && b->turns
+	           ? BATTEN_OK
+	           : BATTEN_MEMORY;
+}
+
+static void block_fill(const batten_search_problem *problems, const size_t *which, block *b)
+{
+	block_pack_stencils(b->plan, b->stencils);
+	for (size_t i = 0; i < b->count; i++)
+		block_pack(b->plan, &problems[which[i]],
+		           (char *)b->inputs + i * BLOCK_INPUT_COUNT * b->nodes * b->number,
+		           (char *)b->settings + i * BLOCK_SETTING_COUNT * b->number);
+}
+
+static bool is_global(const batch_engine *engine)
+{
+	return engine->recipe.options[strlen("-DSTATE=")] == 'g';
+}
+
+static batten_status block_upload(batch_engine *engine, block *b)
+{
+	const size_t state = state_numbers(b->plan, engine->recipe.work_group) * engine->recipe.lanes *
+	                     b->number * b->groups;
+	const struct {
+		device_buffer **buffer;
+		size_t size;
+		const void *from;
+	} uploads[] = {
+		{ &b->stencils_on, block_stencil_count(b->plan) * b->number, b->stencils },
+		{ &b->inputs_on, b->count * BLOCK_INPUT_COUNT * b->nodes * b->number, b->inputs },
+		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
+		{ &b->y_on, b->count * b->nodes * b->number, NULL },
+		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
+		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
+		{ &b->state_on, is_global(engine) ? state : 0, NULL },
+	};
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
+		if (uploads[i].size > 0)
+			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
+			                              uploads[i].buffer);
+	return status;
+}
+
+static batten_status block_launch(batch_engine *engine, block *b)
+{
+	const block_lines_shape shape = block_lines_of(b->plan);
+	const size_t lane_bytes = engine->recipe.lanes * b->number;
+	const size_t group = engine->recipe.work_group;
+	const int32_t numbers[] = { (int32_t)shape.lines, (int32_t)shape.length,
+		                        (int32_t)b->plan->options.iteration_limit, (int32_t)b->count,
+		                        (int32_t)b->share };
+	const device_argument arguments[] = {
+		{ .size = sizeof(int32_t), .value = &numbers[0] },
+		{ .size = sizeof(int32_t), .value = &numbers[1] },
+		{ .size = sizeof(int32_t), .value = &numbers[2] },
+		{ .size = sizeof(int32_t), .value = &numbers[3] },
+		{ .size = sizeof(int32_t), .value = &numbers[4] },
+		{ .buffer = b->stencils_on },
+		{ .buffer = b->inputs_on },
+		{ .buffer = b->settings_on },
+		{ .buffer = b->y_on },
+		{ .buffer = b->outcomes_on },
+		{ .buffer = b->turns_on },
+		{ .buffer = b->state_on,
+		  .size = b->state_on ? 0 : state_numbers(b->plan, group) * lane_bytes },
+		{ .size = BLOCK_SUM_COUNT * shape.lines * lane_bytes },
+		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
+	};
+	batten_status status = device_launch(engine->session, engine->kernel, arguments,
+	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->y_on, b->count * b->nodes * b->number, b->y);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,
+		                            b->outcomes);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->turns_on, b->groups * sizeof *b->turns, b->turns);
+	return status;
+}
+
+batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
+                               const batten_search_problem *problems, const size_t *which,
+                               size_t count, double *y_m, batten_search_result *results,
+                               uint64_t *lane_turns)
+{
+	block b = { .plan = plan, .count = count };
+	batten_status status = block_allocate(engine, &b);
+	if (status == BATTEN_OK) {
+		block_fill(problems, which, &b);
+		status = block_upload(engine, &b);
+		if (status == BATTEN_OK)
+			status = block_launch(engine, &b);
+		if (status != BATTEN_OK)
+			status = batch_engine_fail(engine, status);
+	}
+	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
+		block_unpack(plan, &problems[which[i]], (char *)b.y + i * b.nodes * b.number,
+		             (char *)b.outcomes + i * BLOCK_OUTCOME_COUNT * b.number,
+		             y_m + which[i] * b.nodes, &results[which[i]]);
+	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)
+		*lane_turns += (uint64_t)b.turns[g] * engine->recipe.lanes;
+	block_release(engine, &b);
+	return status;
+}

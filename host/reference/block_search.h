@@ -1,0 +1,25 @@
+/* The block search in plain C, one search at a time: what kernels/block_search.cl does, equal to it bit
+ * for bit. Layout is the kernel's (shared/block_layout.h), with one lane. */
+#ifndef BATTEN_REFERENCE_BLOCK_SEARCH_H
+#define BATTEN_REFERENCE_BLOCK_SEARCH_H
+
+typedef struct reference_block_search {
+	int lines, length, iteration_limit;
+	int analytic; /* slopes of the integrand by formula, not by probes */
+} reference_block_search;
+
+/* Numbers of scratch that a search takes. */
+#define REFERENCE_BLOCK_SCRATCH(lines, length)                                                     \
+	((size_t)BLOCK_STATE_COUNT * (lines) * (length) + (size_t)3 * (length)*BLOCK_PROBE_COUNT +     \
+	 (size_t)BLOCK_SUM_COUNT * (lines))
+
+/* stencils: STENCIL_SIZE a line, then a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings
+ * [BLOCK_SETTING_COUNT]; y [nodes], outcome [BLOCK_OUTCOME_COUNT]. */
+void reference_block_search_f64(const reference_block_search *shared, const double *stencils,
+                                const double *input, const double *settings, double *y,
+                                double *outcome, double *scratch);
+void reference_block_search_f32(const reference_block_search *shared, const float *stencils,
+                                const float *input, const float *settings, float *y, float *outcome,
+                                float *scratch);
+
+#endif

@@ -1,0 +1,54 @@
+/* The block search, whole searches in one launch.
+ *
+ * A work-group works a range of the searches, BATTEN_LANES of them at a time, one a lane of `real`; its
+ * work-items share the lines of the grid. On a CPU: many lanes, one work-item. On a GPU: one lane, many
+ * work-items. Every line and every sum is worked in one fixed order by one work-item, so the shape does
+ * not change a bit of the result; the C path is the same source.
+ *
+ * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for grids whose state does
+ * not fit local memory), BLOCK_ANALYTIC (1: slopes of the integrand by formula, not by probes). */
+#if !defined(BLOCK_ANALYTIC)
+#define BLOCK_ANALYTIC 0
+#endif
+#define BATTEN_DIALECT_OPENCL
+#include "shared/block_search.h"
+#include "shared/dialect.h"
+
+/* stencils: STENCIL_SIZE a line, then a node of a line. inputs, settings, y, outcomes: as block_memory
+ * has them. Group g works searches g * share up to count; turns[g]: how many iterations its lanes went
+ * through. room: per group BLOCK_STATE_COUNT arrays and (local size + 2) lines of probes. sums:
+ * BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
+kernel void block_search(int lines, int length, int iteration_limit, int count, int share,
+                         global const scalar *stencils, global const scalar *inputs,
+                         global const scalar *settings, global scalar *y, global scalar *outcomes,
+                         global int *turns, STATE real *room, local real *sums, local real *lanes)
+{
+	const int group = (int)get_group_id(0);
+	block_state s;
+	s.lines = lines;
+	s.length = length;
+	s.nodes = lines * length;
+	s.slots = WORK_ITEMS + 2;
+	s.analytic = BLOCK_ANALYTIC;
+	s.across = stencils;
+	s.along = stencils + lines * STENCIL_SIZE;
+	s.arrays = room;
+#if defined(STATE_IS_GLOBAL)
+	s.arrays += (size_t)group * ((size_t)BLOCK_STATE_COUNT * (size_t)s.nodes +
+	                             (size_t)BLOCK_PROBE_COUNT * (size_t)(s.slots * length));
+#endif
+	s.ring = s.arrays + BLOCK_STATE_COUNT * s.nodes;
+	s.sums = sums;
+	block_memory m;
+	m.inputs = inputs;
+	m.settings = settings;
+	m.y = y;
+	m.outcomes = outcomes;
+	m.lanes = lanes;
+	block_queue q;
+	q.next = group * share;
+	q.end = min(q.next + share, count);
+	block_run(&s, &m, &q, iteration_limit);
+	if (WORK_ITEM == 0)
+		turns[group] = q.turns;
+}

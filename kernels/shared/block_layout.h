@@ -1,0 +1,72 @@
+/* How searches by the block method lie in memory: the same numbers for the host, the C path and the
+ * kernel. Lines run along the finer spacing of the grid; node k of line i is number i * length + k,
+ * whichever way the lines run. A search's numbers lie together, so that any lane can take it. */
+#ifndef BATTEN_SHARED_BLOCK_LAYOUT_H
+#define BATTEN_SHARED_BLOCK_LAYOUT_H
+
+/* Arrays of a search, one value a node each. */
+enum {
+	BLOCK_INPUT_START,
+	BLOCK_INPUT_LOWER,
+	BLOCK_INPUT_UPPER,
+	BLOCK_INPUT_TARGET,
+	BLOCK_INPUT_BEND,  /* w1 dx dz where the energy has a term, else 0 */
+	BLOCK_INPUT_CLOSE, /* w2 dx dz / h^4 times the node's factor */
+	BLOCK_INPUT_COUNT
+};
+
+/* One value a search each. */
+enum {
+	BLOCK_SETTING_LONGEST,   /* no offset moves further in an iteration */
+	BLOCK_SETTING_LAST_STEP, /* the search ends when none moves further */
+	BLOCK_SETTING_CURVATURE, /* how far second derivatives are probed */
+	BLOCK_SETTING_COUNT
+};
+enum {
+	BLOCK_OUTCOME_START, /* objective */
+	BLOCK_OUTCOME_END,   /* objective */
+	BLOCK_OUTCOME_STEP,  /* the longest movement of the last iteration */
+	BLOCK_OUTCOME_CONVERGED,
+	BLOCK_OUTCOME_ITERATIONS,
+	BLOCK_OUTCOME_MOVES,  /* iterations that gained */
+	BLOCK_OUTCOME_TRIALS, /* whole objectives, beyond one an iteration */
+	BLOCK_OUTCOME_COUNT
+};
+
+/* Moves remembered by the pattern move. */
+enum { BLOCK_MEMORY = 3 };
+
+/* Arrays of the state, lane by lane: those of the search (y where its start was) and these. */
+enum {
+	BLOCK_STATE_TRIAL = BLOCK_INPUT_COUNT,
+	BLOCK_STATE_WAY,
+	BLOCK_STATE_SLOPE,
+	BLOCK_STATE_INVERSE, /* of the pivots of a line's table; 0 where the node is held */
+	BLOCK_STATE_FACTOR_1,
+	BLOCK_STATE_FACTOR_2,
+	BLOCK_STATE_MOVE,                                     /* BLOCK_MEMORY arrays */
+	BLOCK_STATE_CHANGE = BLOCK_STATE_MOVE + BLOCK_MEMORY, /* of the slope, along with each */
+	BLOCK_STATE_COUNT = BLOCK_STATE_CHANGE + BLOCK_MEMORY
+};
+
+/* What the integrand's probes at a node tell, each times the weight of the node: slopes along the five
+ * derivatives, curvatures along the second ones. */
+enum {
+	BLOCK_PROBE_P,
+	BLOCK_PROBE_Q,
+	BLOCK_PROBE_R,
+	BLOCK_PROBE_S,
+	BLOCK_PROBE_T,
+	BLOCK_PROBE_RR,
+	BLOCK_PROBE_SS,
+	BLOCK_PROBE_TT,
+	BLOCK_PROBE_RS,
+	BLOCK_PROBE_RT,
+	BLOCK_PROBE_ST,
+	BLOCK_PROBE_COUNT
+};
+
+/* Sums of a line, added up over the lines in their order. */
+enum { BLOCK_SUM_COUNT = 2 * BLOCK_MEMORY + 2 };
+
+#endif

@@ -1,0 +1,93 @@
+/* The block search on OpenCL against the C path, bit for bit: lanes, work-groups, both precisions, local
+ * and global state, slopes probed and by formula; a batch of mixed weights keeps its lanes busy. */
+#include "support/search_equal.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static void check_shape(const search_case *c, batten_search_options options)
+{
+	batten_search_problem problems[EQUAL_COUNT];
+	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
+	double *y = calloc(2 * EQUAL_COUNT * c->nodes, sizeof *y);
+	assert_non_null(y);
+	double *known_y = y + EQUAL_COUNT * c->nodes;
+	search_equal_problems(c, problems);
+	options.algorithm = BATTEN_ALGORITHM_BLOCK;
+	batten_run run;
+	if (batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options, y, results,
+	                        &run) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(c->context));
+	assert_true(run.strict);
+	options.device = BATTEN_DEVICE_REFERENCE;
+	assert_int_equal(batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options,
+	                                     known_y, known, NULL),
+	                 BATTEN_OK);
+	search_equal_compare(c, y, results, known_y, known);
+	free(y);
+}
+
+static void test_shapes_equal_the_c_path(void **state)
+{
+	(void)state;
+	static const struct {
+		batten_precision precision;
+		unsigned lanes, work_group;
+		bool analytic;
+	} shapes[] = { { BATTEN_F64, 8, 1, false },
+		           { BATTEN_F32, 16, 1, false },
+		           { BATTEN_F64, 1, 5, false },
+		           { BATTEN_F32, 2, 3, true } };
+	search_case c = search_case_open("npl_parent", 0.01, true);
+	for (size_t s = 0; s < sizeof shapes / sizeof shapes[0]; s++) {
+		batten_search_options options;
+		batten_search_options_default(&options);
+		options.device = 0;
+		options.precision = shapes[s].precision;
+		options.lanes = shapes[s].lanes;
+		options.work_group = shapes[s].work_group;
+		options.analytic_slopes = shapes[s].analytic;
+		check_shape(&c, options);
+	}
+	search_case_close(&c);
+}
+
+static void test_lanes_stay_busy(void **state)
+{
+	(void)state;
+	enum { COUNT = 512 };
+	search_case c = search_case_open("bsra_trawler", 0.01, true);
+	batten_search_problem *problems = calloc(COUNT, sizeof *problems);
+	batten_search_result *results = calloc(COUNT, sizeof *results);
+	double *y = calloc(COUNT * c.nodes, sizeof *y);
+	assert_true(problems && results && y);
+	for (size_t p = 0; p < COUNT; p++)
+		problems[p] = search_case_problem(&c, 1.0, pow(10.0, (double)(p * 7 % 50) / 10.0));
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.device = 0;
+	options.algorithm = BATTEN_ALGORITHM_BLOCK;
+	batten_run run;
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, COUNT, problems, &options, y, results, &run),
+		BATTEN_OK);
+	assert_true(run.lane_use >= 0.9 && run.lane_use <= 1.0);
+	free(problems);
+	free(results);
+	free(y);
+	search_case_close(&c);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_shapes_equal_the_c_path),
+		cmocka_unit_test(test_lanes_stay_busy),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,260 @@
+/* The block search on the plain C path: its minimum is the oracle's, on every shipped hull, on grids of
+ * other kinds, over many seeds; what it refuses. */
+#include "support/search_case.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static batten_search_options block_options(batten_precision precision)
+{
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.device = BATTEN_DEVICE_REFERENCE;
+	options.algorithm = BATTEN_ALGORITHM_BLOCK;
+	options.precision = precision;
+	return options;
+}
+
+/* How far the search's objective is above the oracle's minimum, relative to it. */
+static double gap_of(const search_case *c, double w2, batten_precision precision)
+{
+	double *y = calloc(c->nodes, sizeof *y);
+	double *known = calloc(c->nodes, sizeof *known);
+	assert_non_null(y);
+	assert_non_null(known);
+	const batten_search_options options = block_options(precision);
+	const batten_search_problem problem = search_case_problem(c, 1.0, w2);
+	oracle_problem oracle = search_case_oracle(c, 1.0, w2);
+	batten_search_result result;
+	assert_int_equal(
+		batten_search_batch(c->context, &c->grid, 1, &problem, &options, y, &result, NULL),
+		BATTEN_OK);
+	assert_int_equal(result.algorithm, BATTEN_ALGORITHM_BLOCK);
+	assert_true(result.iterations <= 60);
+	oracle_minimum minimum;
+	oracle.start = y;
+	assert_true(oracle_minimise(&oracle, known, &minimum) && minimum.converged);
+	const double found = (double)oracle_objective(&oracle, y);
+	const double best = (double)oracle_objective(&oracle, known);
+	free(y);
+	free(known);
+	return (found - best) / best;
+}
+
+static void test_minimum_is_the_oracles(void **state)
+{
+	(void)state;
+	static const char *const hulls[] = { "npl_parent", "bsra_trawler", "highspeed_craft",
+		                                 "wigley" };
+	static const double weights[] = { 4.0, 400.0, 4e4 };
+	static const double parts[] = { 0.01, 0.003 };
+	for (size_t h = 0; h < sizeof hulls / sizeof hulls[0]; h++)
+		for (int p = 0; p < 2; p++) {
+			search_case c = search_case_open(hulls[h], parts[p], true);
+			for (size_t w = 0; w < sizeof weights / sizeof weights[0]; w++) {
+				assert_true(gap_of(&c, weights[w], BATTEN_F64) <= 4e-9);
+				if (w != 1)
+					assert_true(gap_of(&c, weights[w], BATTEN_F32) <= 2e-5);
+			}
+			search_case_close(&c);
+		}
+}
+
+/* A noisy hull of a wave's form over a grid of its own. */
+enum { STATIONS = 21, WATERLINES = 20, NODES = STATIONS * WATERLINES };
+typedef struct noisy_hull {
+	size_t nx, nz;
+	double x[STATIONS], z[WATERLINES];
+	double y[NODES], lower[NODES], upper[NODES], end[NODES];
+} noisy_hull;
+
+static void make_noisy(noisy_hull *hull, uint32_t seed, double noise)
+{
+	uint32_t number = 2654435761u * (seed + 1);
+	for (size_t n = 0; n < hull->nx * hull->nz; n++) {
+		number = number * 1664525u + 1013904223u;
+		const double u = hull->x[n % hull->nx] / hull->x[hull->nx - 1];
+		const double v = 1.0 - hull->z[n / hull->nx] / hull->z[hull->nz - 1];
+		const double form = 3.2 * u * (1.0 - u) * (1.0 - v * v);
+		const double y = form + 2.0 * noise * ((double)(number >> 8) / (1u << 24) - 0.5);
+		hull->y[n] = fmin(fmax(y, 0.0), 0.8);
+		hull->lower[n] = 0.0;
+		hull->upper[n] = 0.8;
+	}
+}
+
+static batten_search_result run(batten_context *context, noisy_hull *hull, double w2,
+                                const batten_search_options *options)
+{
+	const batten_grid grid = { hull->nx, hull->nz, hull->x, hull->z };
+	const batten_search_problem problem = { .start_m = hull->y,
+		                                    .target_m = hull->y,
+		                                    .lower_m = hull->lower,
+		                                    .upper_m = hull->upper,
+		                                    .w1 = 1.0,
+		                                    .w2 = w2,
+		                                    .half_beam_m = 0.8 };
+	batten_search_result result;
+	assert_int_equal(
+		batten_search_batch(context, &grid, 1, &problem, options, hull->end, &result, NULL),
+		BATTEN_OK);
+	return result;
+}
+
+/* The gap to where the oracle's Newton method gets from the search's end. */
+static double gap_of_noisy(batten_context *context, noisy_hull *hull, double w2)
+{
+	const batten_search_options options = block_options(BATTEN_F64);
+	const batten_search_result result = run(context, hull, w2, &options);
+	const oracle_problem oracle = { .nx = hull->nx,
+		                            .nz = hull->nz,
+		                            .x = hull->x,
+		                            .z = hull->z,
+		                            .start = hull->end,
+		                            .target = hull->y,
+		                            .lower = hull->lower,
+		                            .upper = hull->upper,
+		                            .w1 = 1.0,
+		                            .w2 = w2,
+		                            .h = 0.8 };
+	double best[NODES];
+	oracle_minimum minimum;
+	assert_true(oracle_minimise(&oracle, best, &minimum) && minimum.converged);
+	return (result.objective_end - (double)minimum.objective) / (double)minimum.objective;
+}
+
+/* Square cells, where many iterations are needed, lines along x, and spacing that changes from line to
+ * line. */
+static void test_grids_of_other_kinds(void **state)
+{
+	(void)state;
+	batten_context *context = NULL;
+	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
+	for (int kind = 0; kind < 3; kind++)
+		for (double w2 = 40.0; w2 < 1e6; w2 *= 100.0) {
+			noisy_hull hull = { .nx = 13, .nz = 11 };
+			for (size_t i = 0; i < hull.nx; i++)
+				hull.x[i] = kind == 0   ? 0.1 * (double)i
+				            : kind == 1 ? 0.05 * (double)i
+				                        : 0.7 * (double)i + 0.05 * (double)(i * i);
+			for (size_t k = 0; k < hull.nz; k++)
+				hull.z[k] = kind == 0   ? 0.1 * (double)k
+				            : kind == 1 ? 0.3 * (double)k
+				                        : 0.05 * (double)k + 0.004 * (double)(k * k);
+			make_noisy(&hull, 5, 0.01);
+			assert_true(gap_of_noisy(context, &hull, w2) <= 1e-6);
+		}
+	batten_context_destroy(context);
+}
+
+/* The block search and the multilevel search end at the same minimum, whatever the noise: 12 seeds,
+ * 3 levels, 3 weights. */
+static void test_robust_against_noise(void **state)
+{
+	(void)state;
+	batten_context *context = NULL;
+	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
+	static const double noises[] = { 0.005, 0.01, 0.02 };
+	static const double weights[] = { 10.0, 1e3, 1e5 };
+	const batten_search_options options = block_options(BATTEN_F64);
+	const batten_search_options single = block_options(BATTEN_F32);
+	batten_search_options strict = options;
+	strict.last_step = 1e-10;
+	double worst = 0.0, worst_f32 = 0.0;
+	for (uint32_t seed = 0; seed < 12; seed++)
+		for (size_t noise = 0; noise < 3; noise++)
+			for (size_t w = 0; w < 3; w++) {
+				noisy_hull hull = { .nx = STATIONS, .nz = WATERLINES };
+				for (size_t i = 0; i < hull.nx; i++)
+					hull.x[i] = 0.8 * (double)i;
+				for (size_t k = 0; k < hull.nz; k++)
+					hull.z[k] = (double)k / 19.0;
+				make_noisy(&hull, seed, noises[noise]);
+				const double w2 = 0.4096 * weights[w];
+				const double found = run(context, &hull, w2, &options).objective_end;
+				const double found_f32 = run(context, &hull, w2, &single).objective_end;
+				const double best = run(context, &hull, w2, &strict).objective_end;
+				worst = fmax(worst, fabs(found - best) / best);
+				worst_f32 = fmax(worst_f32, fabs(found_f32 - best) / best);
+			}
+	print_message("worst gap %.2g, f32 %.2g\n", worst, worst_f32);
+	assert_true(worst <= 1e-6);
+	assert_true(worst_f32 <= 5e-5);
+	batten_context_destroy(context);
+}
+
+/* Slopes by formula end where probing does. */
+static void test_slopes_by_formula(void **state)
+{
+	(void)state;
+	search_case c = search_case_open("highspeed_craft", 0.01, true);
+	double *y = calloc(2 * c.nodes, sizeof *y);
+	assert_non_null(y);
+	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e3);
+	batten_search_options options = block_options(BATTEN_F64);
+	batten_search_result probed, derived;
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 1, &problem, &options, y, &probed, NULL),
+		BATTEN_OK);
+	options.analytic_slopes = true;
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 1, &problem, &options, y + c.nodes, &derived, NULL),
+		BATTEN_OK);
+	assert_int_equal(probed.iterations, derived.iterations);
+	assert_true(fabs(probed.objective_end / derived.objective_end - 1.0) <= 1e-10);
+	free(y);
+	search_case_close(&c);
+}
+
+static void test_refusals(void **state)
+{
+	(void)state;
+	search_case c = search_case_open("wigley", 0.01, false);
+	double *y = calloc(2 * c.nodes, sizeof *y);
+	double *bad = calloc(c.nodes, sizeof *bad);
+	assert_non_null(y);
+	assert_non_null(bad);
+	memcpy(bad, batten_hull_y_m(c.hull), c.nodes * sizeof *bad);
+	bad[30] = INFINITY;
+	batten_search_problem problems[2] = { search_case_problem(&c, 1.0, 1e3),
+		                                  search_case_problem(&c, 1.0, 1e3) };
+	problems[0].start_m = bad;
+	batten_search_result results[2];
+	batten_search_options options = block_options(BATTEN_F64);
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 2, problems, &options, y, results, NULL),
+		BATTEN_INCOMPLETE);
+	assert_int_equal(results[0].end, BATTEN_SEARCH_REFUSED);
+	assert_int_equal(results[1].end, BATTEN_SEARCH_CONVERGED);
+	options.fairness = BATTEN_FAIRNESS_MEAN;
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 1, problems + 1, &options, y, results, NULL),
+		BATTEN_USAGE);
+	options.algorithm = BATTEN_ALGORITHM_AUTO;
+	assert_int_equal(
+		batten_search_batch(c.context, &c.grid, 1, problems + 1, &options, y, results, NULL),
+		BATTEN_OK);
+	assert_int_equal(results[0].algorithm, BATTEN_ALGORITHM_MULTILEVEL);
+	free(y);
+	free(bad);
+	search_case_close(&c);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_minimum_is_the_oracles),
+		cmocka_unit_test(test_grids_of_other_kinds),
+		cmocka_unit_test(test_robust_against_noise),
+		cmocka_unit_test(test_slopes_by_formula),
+		cmocka_unit_test(test_refusals),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
