@@ -109,10 +109,10 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	if (status != BATTEN_OK)
 		return status;
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
-	static batten_status (*const tests[])(
-		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search,   test_textbook, test_block,
-		                       test_surfaces, test_nets,     test_passes };
+	static batten_status (*const tests[])(batten_context *, size_t, const batten_device *,
+	                                      batten_precision, batten_selftest *) = {
+		test_search, test_textbook, test_block, test_surfaces, test_nets, test_passes
+	};
 	enum { PRECISIONS = 2, TESTS = 6 };
 	*count = (size_t)PRECISIONS * TESTS + 1;
 	for (size_t t = 0; t + 1 < *count && t < capacity; t++) {
