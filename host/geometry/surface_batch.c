@@ -46,6 +46,22 @@ static bool same_knots(const double *a, const double *b, size_t count)
 	return true;
 }
 
+const char *surface_unlike(const batten_surface *first, const batten_surface *other)
+{
+	if (!other)
+		return "is NULL";
+	if (other->order_u != first->order_u || other->order_v != first->order_v)
+		return "has other orders than surface 0";
+	if (other->count_u != first->count_u || other->count_v != first->count_v)
+		return "has another number of poles than surface 0";
+	if ((other->weights != NULL) != (first->weights != NULL))
+		return "has weights and surface 0 has none, or the other way round";
+	if (!same_knots(other->knots_u, first->knots_u, first->count_u + first->order_u) ||
+	    !same_knots(other->knots_v, first->knots_v, first->count_v + first->order_v))
+		return "has other knots than surface 0";
+	return NULL;
+}
+
 batten_status surface_topology_of(batten_context *context, size_t count,
                                   const batten_surface *const *surfaces, surface_topology *out)
 {
@@ -56,19 +72,7 @@ batten_status surface_topology_of(batten_context *context, size_t count,
 		                         first->count_v,        first->knots_u, first->knots_v,
 		                         first->weights != NULL };
 	for (size_t s = 1; s < count; s++) {
-		const batten_surface *other = surfaces[s];
-		const char *fault = NULL;
-		if (!other)
-			fault = "is NULL";
-		else if (other->order_u != t.order_u || other->order_v != t.order_v)
-			fault = "has other orders than surface 0";
-		else if (other->count_u != t.count_u || other->count_v != t.count_v)
-			fault = "has another number of poles than surface 0";
-		else if ((other->weights != NULL) != t.rational)
-			fault = "has weights and surface 0 has none, or the other way round";
-		else if (!same_knots(other->knots_u, t.knots_u, t.count_u + t.order_u) ||
-		         !same_knots(other->knots_v, t.knots_v, t.count_v + t.order_v))
-			fault = "has other knots than surface 0";
+		const char *fault = surface_unlike(first, surfaces[s]);
 		if (fault)
 			return batten_fail(context, BATTEN_USAGE, "surface %zu of %zu %s", s, count, fault);
 	}
@@ -158,9 +162,9 @@ static batten_status make_unit(batten_context *context, double light[3])
 	return BATTEN_OK;
 }
 
-static batten_status check_options(batten_context *context,
-                                   const batten_surface_batch_options *given,
-                                   batten_surface_batch_options *chosen)
+batten_status surface_batch_options_check(batten_context *context,
+                                          const batten_surface_batch_options *given,
+                                          batten_surface_batch_options *chosen)
 {
 	batten_surface_batch_options_default(chosen);
 	if (given)
@@ -212,7 +216,7 @@ batten_status batten_surface_grid_batch(batten_context *context, size_t count,
 		                           [BATTEN_SURFACE_EVERYTHING] = SURFACE_OUTPUT_EVERYTHING };
 	batten_surface_batch_options chosen;
 	surface_topology t = { 0 };
-	batten_status status = check_options(context, options, &chosen);
+	batten_status status = surface_batch_options_check(context, options, &chosen);
 	if (status == BATTEN_OK)
 		status = surface_topology_of(context, count, surfaces, &t);
 	if (status != BATTEN_OK)
@@ -240,7 +244,7 @@ batten_status batten_surface_energy_batch(batten_context *context, size_t count,
 {
 	batten_surface_batch_options chosen;
 	surface_topology t = { 0 };
-	batten_status status = check_options(context, options, &chosen);
+	batten_status status = surface_batch_options_check(context, options, &chosen);
 	if (status == BATTEN_OK)
 		status = surface_topology_of(context, count, surfaces, &t);
 	if (status != BATTEN_OK)

@@ -16,6 +16,17 @@ typedef struct surface_topology {
 batten_status surface_topology_of(batten_context *context, size_t count,
                                   const batten_surface *const *surfaces, surface_topology *out);
 
+/* What keeps another surface out of a batch with the first; NULL where nothing does. */
+const char *surface_unlike(const batten_surface *first, const batten_surface *other);
+
+/* The options given or the defaults, the light a unit vector. Errors: USAGE. */
+batten_status surface_batch_options_check(batten_context *context,
+                                          const batten_surface_batch_options *given,
+                                          batten_surface_batch_options *chosen);
+
+/* The number of samples along "u" or "v". Errors: USAGE. */
+batten_status surface_samples_check(batten_context *context, const char *what, size_t count);
+
 /* The basis at parameters of one direction; what ("u") stands for it in messages.
  * surface_samples_release() afterwards. Errors: USAGE (outside the range), MEMORY. */
 batten_status surface_samples_at(batten_context *context, const char *what, size_t order,

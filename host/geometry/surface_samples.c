@@ -40,21 +40,30 @@ static void fill(const double *knots, size_t span, double t, double weight, size
 	samples->first[n] = (int32_t)(span + 1 - order);
 }
 
+batten_status surface_samples_check(batten_context *context, const char *what, size_t count)
+{
+	enum { SAMPLES_MOST = 65536 };
+	if (count >= 1 && count <= SAMPLES_MOST)
+		return BATTEN_OK;
+	return batten_fail(context, BATTEN_USAGE, "%zu samples along %s: 1 to %d are expected", count,
+	                   what, SAMPLES_MOST);
+}
+
 batten_status surface_samples_at(batten_context *context, const char *what, size_t order,
                                  size_t poles, const double *knots, size_t count,
                                  const double *parameters, surface_samples *out)
 {
-	enum { SAMPLES_MOST = 65536, TABLE_ROWS = 3 };
+	enum { TABLE_ROWS = 3 };
 	const double first = knots[order - 1];
 	const double last = knots[poles];
-	if (count < 1 || count > SAMPLES_MOST)
-		return batten_fail(context, BATTEN_USAGE, "%zu samples along %s: 1 to %d are expected",
-		                   count, what, SAMPLES_MOST);
+	batten_status status = surface_samples_check(context, what, count);
+	if (status != BATTEN_OK)
+		return status;
 	for (size_t n = 0; n < count; n++)
 		if (!(parameters[n] >= first && parameters[n] <= last))
 			return batten_fail(context, BATTEN_USAGE, "sample %zu: %s is %g, %g to %g is expected",
 			                   n, what, parameters[n], first, last);
-	const batten_status status = allocate(context, order, TABLE_ROWS, poles, count, out);
+	status = allocate(context, order, TABLE_ROWS, poles, count, out);
 	for (size_t n = 0; n < count && status == BATTEN_OK; n++)
 		fill(knots, bspline_span(order, poles, knots, parameters[n]), parameters[n], 1.0, n, out);
 	return status;

@@ -1003,6 +1003,35 @@ BATTEN_API batten_status batten_surface_energy_batch(batten_context *context, si
                                                      batten_surface_energies *energies,
                                                      batten_run *run);
 
+/* The same of any number of surfaces of one topology in bounded memory: as many at a time as suit the
+ * devices, so that memory follows from the samples, not from how many surfaces there are.
+ *
+ * The source is asked for surface 0, 1, 2 ... and gives each to batten, which destroys it; NULL ends
+ * the stream. The sinks get the results in the same order, values as the batch has them for one
+ * surface, valid during the call. What they return other than OK ends the stream and is its status;
+ * nothing is asked for or handed over afterwards, and what was taken is destroyed. Source and sink are
+ * called by the thread that called, one at a time. */
+typedef batten_status (*batten_surface_source)(void *user, size_t index, batten_surface **out);
+typedef batten_status (*batten_surface_grid_sink)(void *user, size_t index, const double *values,
+                                                  const uint8_t *singular);
+typedef batten_status (*batten_surface_energy_sink)(void *user, size_t index,
+                                                    const batten_surface_energies *energies);
+
+/* count, run: may be NULL; count gets how many surfaces the sink was given, also on failure. run as of
+ * the batches together: strict when all were, the first warning. A stream without any surface is OK.
+ * Errors: as the batch, a surface unlike surface 0 among them; those of source and sink. */
+BATTEN_API batten_status batten_surface_grid_stream(batten_context *context,
+                                                    batten_surface_source source,
+                                                    batten_surface_grid_sink sink, void *user,
+                                                    const batten_surface_samples *samples,
+                                                    const batten_surface_batch_options *options,
+                                                    size_t *count, batten_run *run);
+BATTEN_API batten_status batten_surface_energy_stream(batten_context *context,
+                                                      batten_surface_source source,
+                                                      batten_surface_energy_sink sink, void *user,
+                                                      const batten_surface_batch_options *options,
+                                                      size_t *count, batten_run *run);
+
 /* ------------------------------------------------------------------------------------------------
  * Curves: one line, represented in several ways
  * --------------------------------------------------------------------------------------------- */

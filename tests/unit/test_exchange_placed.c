@@ -2,6 +2,8 @@
  * line that names why; never a wrong hull. */
 #include "unit/exchange_fixture.h"
 
+static const char patch[] = PATCH;
+
 static void reads_one_surface(fixture *f, const char *path)
 {
 	batten_surfaces *list = read_file(f, path);
@@ -41,7 +43,7 @@ static void test_iges_loops(void **state)
 	fixture *f = *state;
 	const char *path = path_of(f, "loops.igs");
 	for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-		const char *const parameters[] = { PATCH,
+		const char *const parameters[] = { patch,
 			                               cases[i].outer,
 			                               "142,0,1,3,0,1;",
 			                               cases[i].inner ? "144,1,1,1,5,11;" : "144,1,1,0,5;",
@@ -62,7 +64,7 @@ static void test_iges_matrices(void **state)
 {
 	static const int types[] = { 128, 124, 124 };
 	static const int once[] = { 3, 0, 0 }, twice[] = { 3, 5, 0 };
-	static const char *const parameters[] = { PATCH, "124,0.,-1.,0.,10.,1.,0.,0.,20.,0.,0.,1.,30.;",
+	static const char *const parameters[] = { patch, "124,0.,-1.,0.,10.,1.,0.,0.,20.,0.,0.,1.,30.;",
 		                                      "124,1.,0.,0.,100.,0.,1.,0.,0.,0.,0.,1.,0.;" };
 	static const double moved_mm[4][3] = {
 		{ 10, 20, 30 }, { 10, 1254.5, 30 }, { -15, 20, 31 }, { -15, 1254.5, 31 }
@@ -88,7 +90,7 @@ static void test_iges_matrices(void **state)
 static void test_iges_moved_face(void **state)
 {
 	static const int types[] = { 128, 144, 124 }, matrices[] = { 0, 5, 0 };
-	static const char *const parameters[] = { PATCH, "144,1,0,0,0;",
+	static const char *const parameters[] = { patch, "144,1,0,0,0;",
 		                                      "124,1.,0.,0.,100.,0.,1.,0.,0.,0.,0.,1.,0.;" };
 	fixture *f = *state;
 	const char *path = path_of(f, "face.igs");
@@ -104,7 +106,7 @@ static void test_iges_matrices_in_a_ring(void **state)
 {
 	static const int types[] = { 128, 124, 124 }, ring[] = { 3, 5, 3 };
 	static const char matrix[] = "124,1.,0.,0.,100.,0.,1.,0.,0.,0.,0.,1.,0.;";
-	static const char *const parameters[] = { PATCH, matrix, matrix };
+	static const char *const parameters[] = { patch, matrix, matrix };
 	fixture *f = *state;
 	const char *path = path_of(f, "ring.igs");
 	put_iges(path, 6, "M", 3, types, ring, parameters);
@@ -116,7 +118,7 @@ static void test_iges_matrices_in_a_ring(void **state)
 static void test_iges_instances(void **state)
 {
 	static const int types[] = { 128, 308, 408 };
-	static const char *const parameters[] = { PATCH, "308,0,4Hpart,1,1;", "408,3,100.,0.,0.,1.;" };
+	static const char *const parameters[] = { patch, "308,0,4Hpart,1,1;", "408,3,100.,0.,0.,1.;" };
 	fixture *f = *state;
 	const char *path = path_of(f, "instance.igs");
 	put_iges(path, 6, "M", 3, types, NULL, parameters);
