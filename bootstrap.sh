@@ -58,9 +58,9 @@ g++ libocct-data-exchange-dev
 "
 # gcc libc6-dev: the compiler, and the C library's headers. cmake ninja-build pkg-config: the build.
 # jansson: JSON reports. cairo: line drawings, text on pictures. png: pictures. xxhash: keys of
-# compiled kernels. sqlite3: databases of sweeps. random123: random designs, by counter. The headers of OpenCL and Vulkan: both libraries are opened at run time.
-# glslang-tools: shaders to SPIR-V. g++ libocct-data-exchange-dev: IGES and STEP; batten builds without
-# them, too.
+# compiled kernels. sqlite3: databases of sweeps. random123: random designs, by counter. The headers of
+# OpenCL and Vulkan: both libraries are opened at run time. glslang-tools: shaders to SPIR-V.
+# g++ libocct-data-exchange-dev: IGES and STEP; batten builds without them, too.
 
 run_packages="
 ocl-icd-libopencl1|nvidia-libopencl1
@@ -85,12 +85,11 @@ sqlite3
 chromium
 slurm-wlm munge parallel
 "
-# cmocka: unit tests. nlopt: the optimum that a search is compared with. clang: the second compiler, the kernels' syntax, and with libclang-rt
-# AddressSanitizer. clang-format clang-tidy: layout and lint. vulkan-validationlayers: misuse of Vulkan.
-# xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and STEP files, as an independent program.
-# sqlite3: reads the databases of sweeps. slurm-wlm munge parallel: shards of a sweep on a cluster of one
-# machine.
-# chromium: the page of batten report in a real browser.
+# cmocka: unit tests. nlopt: the optimum that a search is compared with. clang: the second compiler, the
+# kernels' syntax, and with libclang-rt AddressSanitizer. clang-format clang-tidy: layout and lint.
+# vulkan-validationlayers: misuse of Vulkan. xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and
+# STEP files, as an independent program. sqlite3: reads the databases of sweeps. slurm-wlm munge parallel:
+# shards of a sweep on a cluster of one machine. chromium: the page of batten report in a real browser.
 
 # nodejs npm: the page of batten report. Other sources' nodejs brings npm along and cannot stand beside
 # Debian's, so whoever has the commands needs no package. The page's modules come from the registry that
