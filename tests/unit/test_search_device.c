@@ -27,7 +27,8 @@ static void test_selftest_is_equal(void **state)
 		assert_int_equal(batten_device_selftest(context, d, tests, 16, &count), BATTEN_OK);
 		for (size_t t = 0; t < count; t++) {
 			assert_int_equal(tests[t].result, BATTEN_SELFTEST_EQUAL);
-			assert_true(tests[t].compared > 1000);
+			/* The smallest are the passes: 17 hulls of 22 values in f64. */
+			assert_true(tests[t].compared >= 374);
 			assert_int_equal(tests[t].different, 0);
 			built++;
 		}
