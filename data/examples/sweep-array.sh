@@ -1,9 +1,9 @@
 #!/bin/bash
 # A sweep as a Slurm job array: each task runs its own shard into its own database.
 #
-#     sbatch --array=1-8 data/examples/sweep-array.sh PLAN.json FOLDER
+#     sbatch --array=1-8 data/examples/sweep-array.sh PLAN.json FOLDER [OPTION ...]
 #
-# and, when all tasks are done,
+# with any options of batten sweep behind, and, when all tasks are done,
 #
 #     batten merge whole.db FOLDER/part*.db
 #
@@ -18,13 +18,14 @@
 set -u
 plan=$1
 folder=$2
+shift 2
 
 # Nodes that share a home would write to one cache of kernels.
 POCL_CACHE_DIR=${TMPDIR:-/tmp}/pocl-$(id -un)
 export POCL_CACHE_DIR
 
 "${BATTEN:-batten}" sweep "$plan" --out "$folder/part$SLURM_ARRAY_TASK_ID.db" \
-	--shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" --resume --quiet &
+	--shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" --resume --quiet "$@" &
 task=$!
 
 # Slurm signals this script only; a signal also ends the wait, which is then taken up again.

@@ -222,8 +222,10 @@ batten_status variants_selftest_run(batch_engine *engine)
 			compare(t, &plan, &engine->test, &worst);
 		variants_plan_destroy(&plan);
 	}
+	/* Other last bits may end the correction of a row a pass earlier or later: on PoCL with relaxed
+	 * mathematics numbers differ by up to 6e-9. */
 	if (status == BATTEN_OK)
-		batch_engine_compare(&engine->test, worst, 1e-9, "a number");
+		batch_engine_compare(&engine->test, worst, 1e-7, "a number");
 	batten_release(engine->context, t);
 	return status;
 }

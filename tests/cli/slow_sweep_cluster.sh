@@ -87,9 +87,12 @@ ask_queue()
 	squeue -h -r -j "$1" -t all -o %T 2>/dev/null | grep -c 'PENDING\|RUNNING\|COMPLETING\|REQUEUE\|SUSPENDED'
 }
 
+# Blocks so small that a shard is not at its end before the signal comes: kernels are built first.
 mkdir array
+TMPDIR=$folder/array
+export TMPDIR
 job=$(sbatch --parsable --array=1-2 --cpus-per-task=1 --time=10 --chdir="$folder" \
-	--output="$folder/array/%a.out" "$source/data/examples/sweep-array.sh" a.json array) ||
+	--output="$folder/array/%a.out" "$source/data/examples/sweep-array.sh" a.json array --block 8) ||
 	fail 'sbatch refused the script'
 # A shard that has begun is told to stop; Slurm reaches the script only.
 tries=0
