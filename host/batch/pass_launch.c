@@ -111,7 +111,7 @@ static batten_status block_upload(block *b)
 			                              &b->buffers[uploads[i].which]);
 	/* Wrapped memory is read only, whatever its type says. */
 	if (status == BATTEN_OK && b->direct)
-		status = device_buffer_wrap(session, b->bytes, (void *)(uintptr_t)from, &b->buffers[FROM]);
+		status = device_buffer_wrap(session, b->bytes, (void *)from, &b->buffers[FROM]);
 	if (status == BATTEN_OK && b->direct)
 		status = device_buffer_wrap(session, b->bytes, b->plan->out_m + begin, &b->buffers[TO]);
 	return status;

@@ -215,8 +215,9 @@ static void draw_captions(const sheet *s)
 static void draw_table(const sheet *s)
 {
 	const size_t columns = s->shown->hull_count;
-	double y = title_height + body_height + half_height + map_height + 4.0 * gap;
-	for (size_t r = 0; r < s->shown->row_count; r++, y += row_height) {
+	const double top = title_height + body_height + half_height + map_height + 4.0 * gap;
+	for (size_t r = 0; r < s->shown->row_count; r++) {
+		const double y = top + (double)r * row_height;
 		if (r % 2 == 0) {
 			cairo_set_source_rgb(s->cairo, 0.95, 0.96, 0.97);
 			cairo_rectangle(s->cairo, 16.0, y - 17.0, page_width - bar_width - 16.0, row_height);
