@@ -107,8 +107,9 @@ static double differentiate(certifier *c, double half_beam_m, double *fairness)
 	return sum + *fairness;
 }
 
-/* Numbers the nodes that are free: not fixed, and not held at a bound by the gradient. */
-static size_t number_unknowns(certifier *c)
+/* Numbers the nodes that are free: not fixed, and not held at a bound by the gradient. last: what those
+ * held still gain by the slope on their last way to the bound, the rounding of f32. */
+static size_t number_unknowns(certifier *c, double *last)
 {
 	const double *y = array_of(c, SEARCH_ARRAY_Y);
 	const double *lower = array_of(c, SEARCH_ARRAY_LOWER);
@@ -119,9 +120,13 @@ static size_t number_unknowns(certifier *c)
 	for (size_t o = 0; o < c->plan->station_count * c->plan->waterline_count; o++) {
 		const size_t n = c->order[o];
 		const double near = c->rounding * fabs(y[n]);
-		const bool held = (y[n] <= lower[n] + near && c->gradient[n] >= 0.0) ||
-		                  (y[n] >= upper[n] - near && c->gradient[n] <= 0.0);
-		if (lower[n] < upper[n] && !held)
+		const bool down = y[n] <= lower[n] + near && c->gradient[n] >= 0.0;
+		const bool up = y[n] >= upper[n] - near && c->gradient[n] <= 0.0;
+		if (!(lower[n] < upper[n]))
+			continue;
+		if (down || up)
+			*last += c->gradient[n] * (y[n] - (down ? lower[n] : upper[n]));
+		else
 			c->number[n] = count++;
 	}
 	return count;
@@ -213,13 +218,16 @@ static void say(batten_certificate *out, const char *message)
 	(void)snprintf(out->message, sizeof out->message, "%s", message);
 }
 
-static batten_status estimate(certifier *c, double half_beam_m, batten_certificate *out)
+static batten_status estimate(certifier *c, double half_beam_m, double last,
+                              batten_certificate *out)
 {
 	batten_context *context = c->plan->context;
 	const size_t count = out->free_count;
 	const size_t width = band_width(c);
+	/* An objective of 0 cannot fall. */
+	const double scale = out->objective > 0.0 ? 1.0 / out->objective : 0.0;
 	if (count == 0) {
-		out->gap_estimate = 0.0;
+		out->gap_estimate = last * scale;
 		return BATTEN_OK;
 	}
 	if (width + 1 > BAND_LIMIT / count) {
@@ -232,8 +240,7 @@ static batten_status estimate(certifier *c, double half_beam_m, batten_certifica
 	if (status == BATTEN_OK) {
 		assemble(c, half_beam_m, width, band);
 		const double gain = decrement(c, count, width, band, step);
-		/* An objective of 0 cannot fall. */
-		out->gap_estimate = out->objective > 0.0 ? gain / out->objective : 0.0;
+		out->gap_estimate = (gain + last) * scale;
 		if (isnan(out->gap_estimate))
 			say(out, "the Hessian is not positive definite over the free offsets");
 	}
@@ -261,7 +268,8 @@ batten_status certifier_run(certifier *c, const batten_search_problem *problem, 
 	search_pack(plan, &ended, 0, 1, c->arrays, settings);
 	out->objective = differentiate(c, problem->half_beam_m, &out->fairness);
 	out->fairness = problem->w1 > 0.0 ? out->fairness / problem->w1 : NAN;
-	out->free_count = number_unknowns(c);
+	double last = 0.0;
+	out->free_count = number_unknowns(c, &last);
 	double square = 0.0;
 	for (size_t n = 0; n < plan->node_count; n++)
 		if (c->number[n] != none)
@@ -271,5 +279,5 @@ batten_status certifier_run(certifier *c, const batten_search_problem *problem, 
 		say(out, "the objective is not finite");
 		return BATTEN_OK;
 	}
-	return estimate(c, problem->half_beam_m, out);
+	return estimate(c, problem->half_beam_m, last, out);
 }

@@ -391,7 +391,7 @@ typedef enum batten_search_algorithm {
 	BATTEN_ALGORITHM_TEXTBOOK,   /* Hooke and Jeeves as published (thesis 7.2): to compare with */
 	BATTEN_ALGORITHM_MULTILEVEL, /* probes along hats of several widths: any objective */
 	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand: plain bending
-	                                of offset grids, 20 to 50 times faster */
+	                                of offset grids; bench/README.md says how much faster */
 } batten_search_algorithm;
 /* "auto", "textbook", "multilevel", "block". */
 BATTEN_API const char *batten_search_algorithm_text(batten_search_algorithm algorithm);
@@ -464,8 +464,9 @@ typedef struct batten_certificate {
 	double gradient_per_m; /* norm of the projected gradient: dF/dy over the free offsets */
 	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
 	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
-	 * on their way to one). NaN where H is not positive definite over them,
-	 * that is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
+	 * on their way to one). An offset that f32 has left rounding away from the bound that holds it adds
+	 * what its slope gains on that way. NaN where H is not positive definite over the free offsets, that
+	 * is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
 	double gap_estimate;
 	size_t free_count;
 	char message[96]; /* why there is no estimate; else "" */
