@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,8 @@ const bench_entry bench_entries[] = {
 	  bench_search_multilevel },
 	{ "search.textbook", "the multilevel search against the thesis's pattern search",
 	  bench_search_textbook },
+	{ "search.block", "the block search against the multilevel search, and NLopt where it is there",
+	  bench_search_block },
 	{ "search.net", "searches over control nets, OpenCL against the plain C path",
 	  bench_search_net },
 	{ "forward.pass", "forward and inverse fairing of many hulls, OpenCL against the plain C path",
@@ -84,13 +87,35 @@ bool bench_is_cpu(const bench_settings *settings)
 	       batten_device_describe(settings->context, index, &device) != BATTEN_OK || device.is_cpu;
 }
 
+double bench_seconds(const bench_settings *settings)
+{
+	return bench_is_cpu(settings) ? bench_cpu_seconds() : bench_wall_seconds();
+}
+
+bench_function bench_open_peer(const char *name, const char *function)
+{
+	char path[4096] = "";
+	const char *given = getenv("BATTEN_MODULE_PATH");
+	char *program = given ? NULL : realpath("/proc/self/exe", NULL);
+	char *slash = program ? strrchr(program, '/') : NULL;
+	if (slash)
+		*slash = '\0';
+	if (given || slash)
+		(void)snprintf(path, sizeof path, "%s/%s.so", given ? given : program, name);
+	free(program);
+	void *module = path[0] ? dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) : NULL;
+	void *symbol = module ? dlsym(module, function) : NULL;
+	bench_function found = NULL;
+	memcpy(&found, &symbol, sizeof found); /* POSIX: the bytes are the same */
+	return found;
+}
+
 static batten_status timed(const bench_settings *settings, const bench_contest *contest, int device,
                            batten_precision precision, double *seconds)
 {
-	const bool wall = !bench_is_cpu(settings);
-	const double begun = wall ? bench_wall_seconds() : bench_cpu_seconds();
+	const double begun = bench_seconds(settings);
 	const batten_status status = contest->run(settings, contest->workload, device, precision, NULL);
-	*seconds = (wall ? bench_wall_seconds() : bench_cpu_seconds()) - begun;
+	*seconds = bench_seconds(settings) - begun;
 	return status;
 }
 

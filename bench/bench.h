@@ -34,6 +34,7 @@ typedef struct bench_entry {
 extern const bench_entry bench_entries[];
 
 batten_status bench_search_multilevel(const bench_settings *settings);
+batten_status bench_search_block(const bench_settings *settings);
 batten_status bench_search_textbook(const bench_settings *settings);
 batten_status bench_sweep_end_to_end(const bench_settings *settings);
 batten_status bench_search_net(const bench_settings *settings);
@@ -93,5 +94,12 @@ double bench_stream(void);
 /* CPU seconds of the whole process; wall seconds. */
 double bench_cpu_seconds(void);
 double bench_wall_seconds(void);
+/* Those by which this device is judged. */
+double bench_seconds(const bench_settings *settings);
+
+/* A function of a rival that is a module NAME.so of its own, beside the program or where
+ * BATTEN_MODULE_PATH says; NULL: it is not there. */
+typedef void (*bench_function)(void);
+bench_function bench_open_peer(const char *name, const char *function);
 
 #endif

@@ -3,22 +3,16 @@
  * found beforehand: the longest last step that reaches it on every hull. */
 #include "wigley_case.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { HULLS = 16, TEXTBOOK_HULLS = 1, SWEEP_LIMIT = 20000 };
 #define RAW_W2 1e3
 #define GAP 5e-5
 
-/* One side: its searches and how many of the case's hulls it runs. */
-typedef struct side {
-	batten_search_options options;
-	size_t count;
-} side;
-
-static side make_side(batten_search_algorithm algorithm, int device, batten_precision precision)
+static wigley_side make_side(batten_search_algorithm algorithm, int device,
+                             batten_precision precision)
 {
-	side s = { .count = algorithm == BATTEN_ALGORITHM_TEXTBOOK ? TEXTBOOK_HULLS : HULLS };
+	wigley_side s = { .count = algorithm == BATTEN_ALGORITHM_TEXTBOOK ? TEXTBOOK_HULLS : HULLS };
 	batten_search_options_default(&s.options);
 	s.options.algorithm = algorithm;
 	s.options.device = device;
@@ -30,59 +24,7 @@ static side make_side(batten_search_algorithm algorithm, int device, batten_prec
 	return s;
 }
 
-static batten_status run(const bench_settings *settings, const side *s, const wigley_case *w,
-                         batten_search_result *results, batten_run *ran)
-{
-	const batten_grid grid = { WIGLEY_STATIONS, WIGLEY_WATERLINES, w->x, w->z };
-	return batten_search_batch(settings->context, &grid, s->count, w->problems, &s->options, w->y,
-	                           results, ran);
-}
-
-/* Ends in f64, whatever the searches were in. */
-static batten_status objectives(const bench_settings *settings, const side *s, const wigley_case *w,
-                                double values[HULLS])
-{
-	const batten_grid grid = { WIGLEY_STATIONS, WIGLEY_WATERLINES, w->x, w->z };
-	batten_certificate certificates[HULLS];
-	const batten_status status = batten_search_certify_batch(
-		settings->context, &grid, s->count, w->problems, &s->options, w->y, certificates);
-	for (size_t h = 0; h < s->count && status == BATTEN_OK; h++)
-		values[h] = certificates[h].objective;
-	return status;
-}
-
-static batten_status find_ends(const bench_settings *settings, const side *s, const wigley_case *w,
-                               double values[HULLS])
-{
-	const batten_status status = run(settings, s, w, w->results, NULL);
-	return status == BATTEN_OK ? objectives(settings, s, w, values) : status;
-}
-
-/* The longest last step, halved from the first, that ends at or below `most` on the first
- * `judged` hulls. */
-static batten_status calibrate(const bench_settings *settings, side *s, const wigley_case *w,
-                               const double most[HULLS], size_t judged)
-{
-	batten_status status = BATTEN_OK;
-	double values[HULLS] = { 0.0 };
-	for (int halvings = 1; halvings < 18 && status == BATTEN_OK; halvings++) {
-		bool reached = true;
-		s->options.last_step = ldexp(s->options.first_step, -halvings);
-		status = find_ends(settings, s, w, values);
-		for (size_t h = 0; h < judged && h < s->count; h++)
-			reached = reached && values[h] <= most[h];
-		if (status == BATTEN_OK && reached)
-			return BATTEN_OK;
-	}
-	return status == BATTEN_OK ? BATTEN_INTERNAL : status;
-}
-
-static double now(const bench_settings *settings)
-{
-	return bench_is_cpu(settings) ? bench_cpu_seconds() : bench_wall_seconds();
-}
-
-static uint64_t probes_of(const side *s, const batten_search_result *results)
+static uint64_t probes_of(const wigley_side *s, const batten_search_result *results)
 {
 	uint64_t sum = 0;
 	for (size_t h = 0; h < s->count; h++)
@@ -91,19 +33,20 @@ static uint64_t probes_of(const side *s, const batten_search_result *results)
 }
 
 /* Pairs of one side and the textbook's, each by the hull, or by the probe. */
-static batten_status pair(const bench_settings *settings, const side *value, const side *textbook,
-                          const wigley_case *w, bool by_probe, bench_row *row)
+static batten_status pair(const bench_settings *settings, const wigley_side *value,
+                          const wigley_side *textbook, const wigley_case *w, bool by_probe,
+                          bench_row *row)
 {
 	bench_pairs pairs;
-	const side *const sides[2] = { value, textbook };
+	const wigley_side *const sides[2] = { value, textbook };
 	batten_run ran = { .strict = true };
-	batten_status status = run(settings, value, w, w->results, &ran);
+	batten_status status = wigley_search(settings, value, w, w->results, &ran);
 	(void)snprintf(row->device, sizeof row->device, "%s", ran.device);
 	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++)
 		for (int i = 0; i < 2 && status == BATTEN_OK; i++) {
-			const double begun = now(settings);
-			status = run(settings, sides[i], w, w->results, NULL);
-			const double seconds = now(settings) - begun;
+			const double begun = bench_seconds(settings);
+			status = wigley_search(settings, sides[i], w, w->results, NULL);
+			const double seconds = bench_seconds(settings) - begun;
 			const double units = by_probe ? (double)probes_of(sides[i], w->results)
 			                              : (double)sides[i]->count;
 			*(i ? &pairs.reference[p] : &pairs.value[p]) = seconds / units;
@@ -137,10 +80,10 @@ static batten_status time_probes(const bench_settings *settings, const wigley_ca
 		          { settings->device, BATTEN_F32, "probes" } };
 	batten_status status = BATTEN_OK;
 	for (size_t i = 0; i < sizeof cases / sizeof cases[0] && status == BATTEN_OK; i++) {
-		const side value = make_side(BATTEN_ALGORITHM_MULTILEVEL, cases[i].device,
-		                             cases[i].precision);
-		side textbook = make_side(BATTEN_ALGORITHM_TEXTBOOK, BATTEN_DEVICE_REFERENCE,
-		                          cases[i].precision);
+		const wigley_side value = make_side(BATTEN_ALGORITHM_MULTILEVEL, cases[i].device,
+		                                    cases[i].precision);
+		wigley_side textbook = make_side(BATTEN_ALGORITHM_TEXTBOOK, BATTEN_DEVICE_REFERENCE,
+		                                 cases[i].precision);
 		textbook.options.last_step = 1e-3;
 		bench_row row = make_row(cases[i].name, cases[i].precision);
 		status = pair(settings, &value, &textbook, w, true, &row);
@@ -151,15 +94,16 @@ static batten_status time_probes(const bench_settings *settings, const wigley_ca
 /* To the textbook search's own end, in f64; to a gap, in f32. */
 static batten_status time_searches(const bench_settings *settings, const wigley_case *w)
 {
-	double best[HULLS] = { 0.0 };
-	double ends[HULLS] = { 0.0 };
-	side textbook = make_side(BATTEN_ALGORITHM_TEXTBOOK, BATTEN_DEVICE_REFERENCE, BATTEN_F64);
-	side value = make_side(BATTEN_ALGORITHM_MULTILEVEL, settings->device, BATTEN_F64);
-	batten_status status = find_ends(settings, &textbook, w, ends);
+	double best[WIGLEY_MOST_HULLS] = { 0.0 };
+	double ends[WIGLEY_MOST_HULLS] = { 0.0 };
+	wigley_side textbook = make_side(BATTEN_ALGORITHM_TEXTBOOK, BATTEN_DEVICE_REFERENCE,
+	                                 BATTEN_F64);
+	wigley_side value = make_side(BATTEN_ALGORITHM_MULTILEVEL, settings->device, BATTEN_F64);
+	batten_status status = wigley_ends(settings, &textbook, w, ends);
 	if (status == BATTEN_OK)
-		status = find_ends(settings, &value, w, best);
+		status = wigley_ends(settings, &value, w, best);
 	if (status == BATTEN_OK)
-		status = calibrate(settings, &value, w, ends, TEXTBOOK_HULLS);
+		status = wigley_calibrate(settings, &value, w, ends, TEXTBOOK_HULLS);
 	if (status == BATTEN_OK) {
 		bench_row row = make_row("to its end", BATTEN_F64);
 		status = pair(settings, &value, &textbook, w, false, &row);
@@ -168,9 +112,9 @@ static batten_status time_searches(const bench_settings *settings, const wigley_
 		best[h] *= 1.0 + GAP;
 	value = make_side(BATTEN_ALGORITHM_MULTILEVEL, settings->device, BATTEN_F32);
 	if (status == BATTEN_OK)
-		status = calibrate(settings, &value, w, best, HULLS);
+		status = wigley_calibrate(settings, &value, w, best, HULLS);
 	if (status == BATTEN_OK)
-		status = calibrate(settings, &textbook, w, best, TEXTBOOK_HULLS);
+		status = wigley_calibrate(settings, &textbook, w, best, TEXTBOOK_HULLS);
 	if (status == BATTEN_OK) {
 		bench_row row = make_row("to gap 5e-5", BATTEN_F32);
 		status = pair(settings, &value, &textbook, w, false, &row);

@@ -4,7 +4,6 @@
 #include "bench.h"
 #include "opencascade_peer.h"
 
-#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,25 +20,6 @@ typedef struct contest {
 	double u[GRID_U], v[GRID_V];
 	double *values, *known; /* of COUNT surfaces; of OF_PEER */
 } contest;
-
-/* Beside the program, or where BATTEN_MODULE_PATH says; NULL: OpenCASCADE is not there. */
-static peer_grid open_peer(void)
-{
-	char path[4096] = "";
-	const char *given = getenv("BATTEN_MODULE_PATH");
-	char *program = given ? NULL : realpath("/proc/self/exe", NULL);
-	char *slash = program ? strrchr(program, '/') : NULL;
-	if (slash)
-		*slash = '\0';
-	if (given || slash)
-		(void)snprintf(path, sizeof path, "%s/batten_opencascade_peer.so", given ? given : program);
-	free(program);
-	void *module = path[0] ? dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) : NULL;
-	void *symbol = module ? dlsym(module, "opencascade_peer_grid") : NULL;
-	peer_grid found = NULL;
-	memcpy(&found, &symbol, sizeof found); /* POSIX: the bytes are the same */
-	return found;
-}
 
 static void contest_release(contest *c)
 {
@@ -141,7 +121,8 @@ static batten_status run_case(const bench_settings *settings, contest *c,
 
 batten_status bench_surface_opencascade(const bench_settings *settings)
 {
-	contest c = { .peer = open_peer() };
+	contest c = { .peer = (peer_grid)bench_open_peer("batten_opencascade_peer",
+		                                             "opencascade_peer_grid") };
 	if (!c.peer) /* nothing to compare with */
 		return BATTEN_OK;
 	batten_status status = contest_create(settings, &c);

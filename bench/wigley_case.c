@@ -1,5 +1,6 @@
 #include "wigley_case.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 void wigley_case_release(wigley_case *w)
@@ -47,4 +48,43 @@ bool wigley_case_create(size_t count, double raw_w2, wigley_case *w)
 			                                      .half_beam_m = 0.8 };
 	}
 	return true;
+}
+
+batten_status wigley_search(const bench_settings *settings, const wigley_side *s,
+                            const wigley_case *w, batten_search_result *results, batten_run *ran)
+{
+	const batten_grid grid = { WIGLEY_STATIONS, WIGLEY_WATERLINES, w->x, w->z };
+	return batten_search_batch(settings->context, &grid, s->count, w->problems, &s->options, w->y,
+	                           results, ran);
+}
+
+batten_status wigley_ends(const bench_settings *settings, const wigley_side *s,
+                          const wigley_case *w, double values[WIGLEY_MOST_HULLS])
+{
+	const batten_grid grid = { WIGLEY_STATIONS, WIGLEY_WATERLINES, w->x, w->z };
+	batten_certificate certificates[WIGLEY_MOST_HULLS];
+	batten_status status = wigley_search(settings, s, w, w->results, NULL);
+	if (status == BATTEN_OK)
+		status = batten_search_certify_batch(settings->context, &grid, s->count, w->problems,
+		                                     &s->options, w->y, certificates);
+	for (size_t h = 0; h < s->count && status == BATTEN_OK; h++)
+		values[h] = certificates[h].objective;
+	return status;
+}
+
+batten_status wigley_calibrate(const bench_settings *settings, wigley_side *s, const wigley_case *w,
+                               const double *most, size_t judged)
+{
+	batten_status status = BATTEN_OK;
+	double values[WIGLEY_MOST_HULLS] = { 0.0 };
+	for (int halvings = 1; halvings < 30 && status == BATTEN_OK; halvings++) {
+		bool reached = true;
+		s->options.last_step = ldexp(s->options.first_step, -halvings);
+		status = wigley_ends(settings, s, w, values);
+		for (size_t h = 0; h < judged && h < s->count; h++)
+			reached = reached && values[h] <= most[h];
+		if (status == BATTEN_OK && reached)
+			return BATTEN_OK;
+	}
+	return status == BATTEN_OK ? BATTEN_INTERNAL : status;
 }

@@ -24,4 +24,26 @@ typedef struct wigley_case {
 bool wigley_case_create(size_t count, double raw_w2, wigley_case *w);
 void wigley_case_release(wigley_case *w);
 
+/* ---- searches of the case, to be compared ---- */
+enum { WIGLEY_MOST_HULLS = 64 };
+
+/* One side: its searches and how many of the case's hulls it runs, WIGLEY_MOST_HULLS at most. */
+typedef struct wigley_side {
+	batten_search_options options;
+	size_t count;
+} wigley_side;
+
+/* Searches into w->y. ran may be NULL. */
+batten_status wigley_search(const bench_settings *settings, const wigley_side *s,
+                            const wigley_case *w, batten_search_result *results, batten_run *ran);
+
+/* Searches, and says what objectives the ends in w->y have in f64, whatever the searches were in. */
+batten_status wigley_ends(const bench_settings *settings, const wigley_side *s,
+                          const wigley_case *w, double values[WIGLEY_MOST_HULLS]);
+
+/* Sets the longest last step, halved from the first, that ends at or below `most` on the first
+ * `judged` hulls. INTERNAL: none does. */
+batten_status wigley_calibrate(const bench_settings *settings, wigley_side *s, const wigley_case *w,
+                               const double *most, size_t judged);
+
 #endif

@@ -45,7 +45,7 @@ jansson.h cli report sweep io test
 xxhash.h  device sweep
 sqlite3.h report sweep test support
 cmocka.h  test support
-nlopt.h   test oracle
+nlopt.h   test oracle bench
 Random123 sweep data test
 '
 
