@@ -11,7 +11,7 @@
 #define BLOCK_ANALYTIC 0
 #endif
 #define BATTEN_DIALECT_OPENCL
-#include "shared/block_search.h"
+#include "shared/block_lanes.h"
 #include "shared/dialect.h"
 
 /* stencils: STENCIL_SIZE a line, then a node of a line. inputs, settings, y, outcomes: as block_memory

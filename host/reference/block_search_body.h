@@ -6,7 +6,7 @@
 #define BLOCK_ANALYTIC (s->analytic)
 #include "shared/dialect.h"
 
-#include "shared/block_search.h"
+#include "shared/block_lanes.h"
 
 void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *stencils,
                            const scalar *input, const scalar *settings, scalar *y, scalar *outcome,

@@ -1,0 +1,185 @@
+/* Block searches in lanes: a lane that has finished takes the next search of its group. */
+#ifndef BATTEN_SHARED_BLOCK_LANES_H
+#define BATTEN_SHARED_BLOCK_LANES_H
+
+#include "block_search.h"
+
+/* The searches of a group: numbers first to end of all, lane by lane as they come free. */
+typedef struct block_queue {
+	int next, end;
+	int current[BATTEN_LANES];
+	int turns;
+} block_queue;
+
+typedef struct block_memory {
+	GLOBAL const scalar *inputs, *settings; /* [search][BLOCK_INPUT_COUNT][nodes], ... */
+	GLOBAL scalar *y, *outcomes;            /* [search][nodes], [search][BLOCK_OUTCOME_COUNT] */
+	LOCAL real *lanes;                      /* [BLOCK_OUTCOME_COUNT] */
+} block_memory;
+
+/* Writes what the lanes marked in `leaves` came to. */
+SHARED_FUNCTION void block_store(const block_state *s, const block_memory *m, const block_queue *q,
+                                 const int *leaves)
+{
+	const STATE scalar *y = (const STATE scalar *)block_array(s, BLOCK_INPUT_START);
+	const LOCAL scalar *told = (const LOCAL scalar *)m->lanes;
+	ROLLED
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
+		ROLLED
+		for (int lane = 0; lane < BATTEN_LANES; lane++)
+			if (leaves[lane])
+				m->y[(size_t)q->current[lane] * (size_t)s->nodes + (size_t)n] =
+					y[(size_t)n * BATTEN_LANES + (size_t)lane];
+	}
+	ROLLED
+	for (int lane = 0; lane < BATTEN_LANES; lane++)
+		if (leaves[lane] && WORK_ITEM == 0)
+			for (int v = 0; v < BLOCK_OUTCOME_COUNT; v++)
+				m->outcomes[(size_t)q->current[lane] * BLOCK_OUTCOME_COUNT + (size_t)v] =
+					told[v * BATTEN_LANES + lane];
+}
+
+/* Puts searches into the lanes marked in `takes`. */
+SHARED_FUNCTION void block_load(const block_state *s, const block_memory *m, const block_queue *q,
+                                const int *takes)
+{
+	STATE scalar *to = (STATE scalar *)s->arrays;
+	const int values = BLOCK_INPUT_COUNT * s->nodes;
+	ROLLED
+	for (int n = WORK_ITEM; n < values; n += WORK_ITEMS) {
+		ROLLED
+		for (int lane = 0; lane < BATTEN_LANES; lane++)
+			if (takes[lane])
+				to[(size_t)n * BATTEN_LANES + (size_t)lane] =
+					m->inputs[(size_t)q->current[lane] * (size_t)values + (size_t)n];
+	}
+}
+
+/* A setting of every lane's search. */
+SHARED_FUNCTION void block_settings(const block_memory *m, const block_queue *q,
+                                    block_limits *limits)
+{
+	LOCAL scalar *told = (LOCAL scalar *)m->lanes;
+	WAIT;
+	if (WORK_ITEM == 0) {
+		ROLLED
+		for (int lane = 0; lane < BATTEN_LANES; lane++)
+			for (int v = 0; v < BLOCK_SETTING_COUNT; v++)
+				told[v * BATTEN_LANES + lane] =
+					q->current[lane] < 0
+						? LITERAL(1.0)
+						: m->settings[(size_t)q->current[lane] * BLOCK_SETTING_COUNT + (size_t)v];
+	}
+	WAIT;
+	limits->longest = m->lanes[BLOCK_SETTING_LONGEST];
+	limits->last_step = m->lanes[BLOCK_SETTING_LAST_STEP];
+	limits->far = m->lanes[BLOCK_SETTING_CURVATURE];
+	WAIT;
+}
+
+SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	p->fresh = CHOOSE(begins, one, zero);
+	p->working = CHOOSE(works, one, zero);
+	p->step = CHOOSE(begins, zero, p->step);
+	p->calm = CHOOSE(begins, zero, p->calm);
+	p->converged = CHOOSE(begins, zero, p->converged);
+	p->iterations = CHOOSE(begins, zero, p->iterations);
+	p->moves = CHOOSE(begins, zero, p->moves);
+	p->trials = CHOOSE(begins, zero, p->trials);
+	p->fall = CHOOSE(begins, zero, p->fall);
+	p->damping = CHOOSE(begins, zero, p->damping);
+}
+
+SHARED_FUNCTION void block_tell(const block_memory *m, const block_progress *p, mask finished)
+{
+	WAIT;
+	if (WORK_ITEM == 0) {
+		m->lanes[BLOCK_OUTCOME_START] = p->start;
+		m->lanes[BLOCK_OUTCOME_END] = p->objective;
+		m->lanes[BLOCK_OUTCOME_STEP] = p->step;
+		m->lanes[BLOCK_OUTCOME_CONVERGED] = p->converged;
+		m->lanes[BLOCK_OUTCOME_ITERATIONS] = p->iterations;
+		m->lanes[BLOCK_OUTCOME_MOVES] = p->moves;
+		m->lanes[BLOCK_OUTCOME_TRIALS] = p->trials;
+		m->lanes[BLOCK_OUTCOME_COUNT] = CHOOSE(finished, SPREAD(LITERAL(1.0)),
+		                                       SPREAD(LITERAL(0.0)));
+	}
+	WAIT;
+}
+
+/* Lets go what has finished and fills the lanes that are free. Returns whether any lane works. */
+SHARED_FUNCTION int block_change_lanes(const block_state *s, const block_memory *m, block_queue *q,
+                                       mask finished, block_limits *limits, block_progress *p)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	int leaves[BATTEN_LANES], takes[BATTEN_LANES];
+	int any = 0, begun = 0;
+	block_tell(m, p, finished);
+	const LOCAL scalar *told = (const LOCAL scalar *)(m->lanes + BLOCK_OUTCOME_COUNT);
+	ROLLED
+	for (int lane = 0; lane < BATTEN_LANES; lane++)
+		leaves[lane] = told[lane] > LITERAL(0.0) && q->current[lane] >= 0;
+	block_store(s, m, q, leaves);
+	ROLLED
+	for (int lane = 0; lane < BATTEN_LANES; lane++) {
+		if (leaves[lane])
+			q->current[lane] = -1;
+		takes[lane] = q->current[lane] < 0 && q->next < q->end;
+		if (takes[lane])
+			q->current[lane] = q->next++;
+		any |= q->current[lane] >= 0;
+		begun |= takes[lane];
+	}
+	WAIT;
+	if (begun)
+		block_load(s, m, q, takes);
+	if (WORK_ITEM == 0) {
+		LOCAL scalar *lanes = (LOCAL scalar *)m->lanes;
+		ROLLED
+		for (int lane = 0; lane < BATTEN_LANES; lane++) {
+			lanes[lane] = takes[lane] ? LITERAL(1.0) : LITERAL(0.0);
+			lanes[BATTEN_LANES + lane] = q->current[lane] >= 0 ? LITERAL(1.0) : LITERAL(0.0);
+		}
+	}
+	WAIT;
+	block_begin(p, m->lanes[0] > zero, m->lanes[1] > zero);
+	block_settings(m, q, limits);
+	return any;
+}
+
+/* All searches of a group. */
+SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, block_queue *q,
+                               int iteration_limit)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real limit = SPREAD((scalar)iteration_limit);
+	block_progress p;
+	block_limits limits;
+	ROLLED
+	for (int n = WORK_ITEM; n < BLOCK_STATE_COUNT * s->nodes; n += WORK_ITEMS)
+		s->arrays[n] = zero;
+	ROLLED
+	for (int lane = 0; lane < BATTEN_LANES; lane++)
+		q->current[lane] = -1;
+	q->turns = 0;
+	p.working = p.fresh = p.objective = p.start = p.step = p.calm = p.converged = zero;
+	p.iterations = p.moves = p.trials = p.fall = p.damping = p.promise = zero;
+	p.tries = zero;
+	p.old_1 = p.old_2 = p.older = zero;
+	for (int pair = 0; pair < BLOCK_MEMORY; pair++)
+		p.inverse[pair] = zero;
+	mask finished = p.working == zero;
+	ROLLED
+	while (block_change_lanes(s, m, q, finished, &limits, &p)) {
+		do {
+			block_iterate(s, q->turns, limits, &p);
+			q->turns++;
+			finished = (p.converged > zero) | (p.iterations >= limit);
+		} while (!ANY(finished & (p.working > zero)));
+	}
+}
+
+#endif
