@@ -17,8 +17,6 @@ enum { ALGORITHM_COUNT = sizeof algorithms / sizeof algorithms[0] };
  * the objective: the block search lives on that. */
 static bool is_stretched(const batten_grid *grid)
 {
-	if (grid->station_count < 2 || grid->waterline_count < 2)
-		return false;
 	const size_t i = grid->station_count - 1;
 	const size_t k = grid->waterline_count - 1;
 	const double x = (grid->x_m[i] - grid->x_m[0]) / (double)i;
@@ -26,7 +24,7 @@ static bool is_stretched(const batten_grid *grid)
 	return x >= STRETCHED * z || z >= STRETCHED * x;
 }
 
-/* What runs the batch; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
+/* What runs the batch, whose grid is checked; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
 static batten_status choose(batten_context *context, const batten_grid *grid,
                             batten_search_options *options, search_algorithm_run **run)
 {
@@ -92,6 +90,8 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 	batten_search_options chosen;
 	search_algorithm_run *algorithm = NULL;
 	batten_status status = search_options_check(context, options, &chosen);
+	if (status == BATTEN_OK)
+		status = search_grid_check(context, grid);
 	if (status == BATTEN_OK)
 		status = choose(context, grid, &chosen, &algorithm);
 	if (status != BATTEN_OK)

@@ -161,7 +161,7 @@ static batten_status list_directions(search_plan *plan, size_t count,
 	return plan->centres ? BATTEN_OK : BATTEN_MEMORY;
 }
 
-static batten_status check_grid(batten_context *context, const batten_grid *grid)
+batten_status search_grid_check(batten_context *context, const batten_grid *grid)
 {
 	if (grid->station_count < 3 || grid->station_count > COORDINATE_LIMIT ||
 	    grid->waterline_count < 3 || grid->waterline_count > COORDINATE_LIMIT)
@@ -282,7 +282,7 @@ batten_status search_plan_create(batten_context *context, const batten_grid *gri
                                  const batten_search_problem *problems,
                                  const batten_search_options *options, search_plan **out)
 {
-	batten_status status = check_grid(context, grid);
+	batten_status status = search_grid_check(context, grid);
 	if (status != BATTEN_OK)
 		return status;
 	search_plan *plan = batten_allocate(context, 1, sizeof *plan);

@@ -49,6 +49,9 @@ int search_widths_choose(size_t count_a, double spacing_a, size_t count_b, doubl
  * the last one perhaps beyond. */
 size_t search_centre_count(size_t count, int width);
 
+/* Counts and coordinates as batten_grid wants them. Errors: USAGE. */
+batten_status search_grid_check(batten_context *context, const batten_grid *grid);
+
 /* Takes the defaults where given is NULL, checks them and replaces every 0 that stands for "choose".
  * Lanes and work-group are chosen per device later. Errors: USAGE. */
 batten_status search_options_check(batten_context *context, const batten_search_options *given,
