@@ -24,7 +24,8 @@ static bool is_stretched(const batten_grid *grid)
 	return x >= STRETCHED * z || z >= STRETCHED * x;
 }
 
-/* What runs the batch, whose grid is checked; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
+/* What runs the batch, whose grid is checked; BATTEN_ALGORITHM_AUTO in the options is replaced by what
+ * it takes. */
 static batten_status choose(batten_context *context, const batten_grid *grid,
                             batten_search_options *options, search_algorithm_run **run)
 {
