@@ -86,7 +86,7 @@ export async function openBrowser(program) {
 			const gone = new Promise((resolve) => child.on('exit', resolve));
 			child.kill('SIGKILL');
 			await gone;
-			rmSync(folder, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+			rmSync(folder, { maxRetries: 20, retryDelay: 100, recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
 		},
 	};
 }
