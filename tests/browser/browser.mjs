@@ -86,7 +86,15 @@ export async function openBrowser(program) {
 			const gone = new Promise((resolve) => child.on('exit', resolve));
 			child.kill('SIGKILL');
 			await gone;
-			rmSync(folder, { maxRetries: 20, retryDelay: 100, recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+			// Processes that it started may write on for a moment.
+			for (let left = 20; left > 0; left--) {
+				try {
+					rmSync(folder, { recursive: true, force: true });
+					return;
+				} catch {
+					await pause(200);
+				}
+			}
 		},
 	};
 }

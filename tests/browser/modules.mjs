@@ -17,7 +17,7 @@ async function load(name) {
 const { frontOf } = await load('front');
 const shape = await load('shape');
 const { shortNumber, unitOf } = await load('data');
-rmSync(folder, { maxRetries: 20, retryDelay: 100, recursive: true });
+rmSync(folder, { recursive: true });
 
 // The front against the definition, for every pair of goals.
 const count = 300;
