@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-/* Half-breadths below this part of the half-beam are rounding, and 0 (sections.c). */
-#define ZERO_PART 1e-12
-
 bool variation_tables_fit(const batten_hull *parent, const batten_vary_options *options)
 {
 	const bool method = options->method == BATTEN_VARY_SWING ||
@@ -181,7 +178,7 @@ batten_status variation_tables_fill(const variation_parent *parent,
 	const bool swing = options->method == BATTEN_VARY_SWING;
 	plan->shape[VARIANTS_METHOD] = swing ? VARIANTS_SWING : VARIANTS_HALVES;
 	plan->shape[VARIANTS_ONCE] = options->first_pass;
-	formula[VARIANTS_FORMULA_LEAST] = ZERO_PART * batten_hull_half_beam_m(parent->hull);
+	formula[VARIANTS_FORMULA_LEAST] = VARIATION_ZERO_PART * batten_hull_half_beam_m(parent->hull);
 	formula[VARIANTS_FORMULA_PARENT_CP] = parent->measures.cp;
 	formula[VARIANTS_FORMULA_PARENT_LCB] = parent->measures.lcb_pct_lbp_fwd;
 	fill_body(parent, plan);

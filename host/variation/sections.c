@@ -37,12 +37,9 @@ static void take_offset(batten_hull *variant, const double *before, size_t node,
 		variant->nodes[node] = is ? BATTEN_NODE_GIVEN : BATTEN_NODE_OUTSIDE;
 }
 
-/* Half-breadths below this part of the half-beam are rounding, and 0. */
-#define ZERO_PART 1e-12
-
 batten_status variation_set_offsets(batten_hull *variant, const double *y_m)
 {
-	const double least = ZERO_PART * batten_hull_half_beam_m(variant);
+	const double least = VARIATION_ZERO_PART * batten_hull_half_beam_m(variant);
 	const size_t count = hull_node_count(variant);
 	double *before = batten_allocate(variant->context, count, sizeof *before);
 	if (!before)

@@ -88,6 +88,9 @@ double variation_moor_place(const variation_moor *moor, double x_m, bool *found)
 batten_status variation_moor_apply(const variation_moor *moor, batten_hull *variant,
                                    size_t *unmatched);
 
+/* Half-breadths below this part of the half-beam are rounding, and 0. */
+#define VARIATION_ZERO_PART 1e-12
+
 /* Sets half-breadths (as batten_hull_y_m(), NaN: outside) and what each node is then: the zeros next
  * to a positive offset are the profile, unless the parent has its zeros otherwise. Fills '?' nodes
  * again. Errors: INPUT, MEMORY. */
