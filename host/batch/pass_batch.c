@@ -39,29 +39,13 @@ static batten_status run_on_reference(batch_work *work)
 
 batten_status pass_batch_run(const pass_plan *plan, batten_run *run)
 {
-	batten_context *context = plan->context;
-	batten_run told = { .strict = true };
-	batch b = { .work = { .context = context,
+	batch b = { .work = { .context = plan->context,
 		                  .device = plan->device,
 		                  .open = open_engine,
 		                  .block = block_of,
 		                  .run = run_block,
 		                  .run_reference = run_on_reference },
 		        .plan = plan };
-	batten_status status = pass_plan_check(plan);
-	if (status != BATTEN_OK)
-		return status;
-	size_t *order = batten_allocate(context, plan->count, sizeof *order);
-	if (!order)
-		return BATTEN_MEMORY;
-	for (size_t h = 0; h < plan->count; h++)
-		order[h] = h;
-	status = work_queue_create(context, order, plan->count, &b.work.queue);
-	if (status == BATTEN_OK && plan->count > 0)
-		status = batch_work_run(&b.work, &told);
-	work_queue_release(context, &b.work.queue);
-	batten_release(context, order);
-	if (status == BATTEN_OK && run)
-		*run = told;
-	return status;
+	const batten_status status = pass_plan_check(plan);
+	return status == BATTEN_OK ? batch_work_run_all(&b.work, plan->count, run) : status;
 }

@@ -53,27 +53,12 @@ static batten_status run_on_reference(batch_work *work)
 
 batten_status variants_batch_run(const variants_plan *plan, batten_run *run)
 {
-	batten_context *context = plan->context;
-	batten_run told = { .strict = true };
-	batch b = { .work = { .context = context,
+	batch b = { .work = { .context = plan->context,
 		                  .device = plan->device,
 		                  .open = open_engine,
 		                  .block = block_of,
 		                  .run = run_block,
 		                  .run_reference = run_on_reference },
 		        .plan = plan };
-	batten_status status = BATTEN_OK;
-	size_t *order = batten_allocate(context, plan->count, sizeof *order);
-	if (!order)
-		return BATTEN_MEMORY;
-	for (size_t i = 0; i < plan->count; i++)
-		order[i] = i;
-	status = work_queue_create(context, order, plan->count, &b.work.queue);
-	if (status == BATTEN_OK && plan->count > 0)
-		status = batch_work_run(&b.work, &told);
-	work_queue_release(context, &b.work.queue);
-	batten_release(context, order);
-	if (status == BATTEN_OK && run)
-		*run = told;
-	return status;
+	return batch_work_run_all(&b.work, plan->count, run);
 }

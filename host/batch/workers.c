@@ -196,3 +196,21 @@ batten_status batch_work_run(batch_work *work, batten_run *run)
 	batten_release(work->context, workers);
 	return status;
 }
+
+batten_status batch_work_run_all(batch_work *work, size_t count, batten_run *run)
+{
+	batten_run told = { .strict = true };
+	size_t *order = batten_allocate(work->context, count, sizeof *order);
+	if (!order)
+		return BATTEN_MEMORY;
+	for (size_t i = 0; i < count; i++)
+		order[i] = i;
+	batten_status status = work_queue_create(work->context, order, count, &work->queue);
+	if (status == BATTEN_OK && count > 0)
+		status = batch_work_run(work, &told);
+	work_queue_release(work->context, &work->queue);
+	batten_release(work->context, order);
+	if (status == BATTEN_OK && run)
+		*run = told;
+	return status;
+}

@@ -26,4 +26,8 @@ typedef struct batch_work {
 /* Works the queue off and tells what ran it. Errors: USAGE (no such device), DEVICE, KERNEL, MEMORY. */
 batten_status batch_work_run(batch_work *work, batten_run *run);
 
+/* The same over items 0 .. count - 1 in their order, with a queue of its own. run may be NULL, and is
+ * written when all went well. Errors: as batch_work_run(). */
+batten_status batch_work_run_all(batch_work *work, size_t count, batten_run *run);
+
 #endif
