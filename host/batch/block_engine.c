@@ -25,6 +25,11 @@ static size_t local_numbers(const search_plan *plan)
 	return BLOCK_SUM_COUNT * block_lines_of(plan).lines + BLOCK_OUTCOME_COUNT + 1;
 }
 
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	return block_selftest_run(engine, plan, &engine->test);
+}
+
 batten_status block_engine_open(const search_plan *plan, size_t index, const batten_device *device,
                                 batch_engine **out, batten_selftest *result)
 {
@@ -41,25 +46,7 @@ batten_status block_engine_open(const search_plan *plan, size_t index, const bat
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
 	               global ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local",
 	               plan->options.analytic_slopes);
-	batch_engine *made = batch_engine_find(plan->context, &recipe);
-	batten_status status = BATTEN_OK;
-	if (!made) {
-		made = batten_allocate(plan->context, 1, sizeof *made);
-		if (!made)
-			return BATTEN_MEMORY;
-		status = batch_engine_start(made, plan->context, &recipe);
-		if (status == BATTEN_OK)
-			status = batch_engine_judge(made, block_selftest_run(made, plan, &made->test));
-		if (status == BATTEN_OK)
-			batch_engine_keep(made);
-	}
-	if (result)
-		*result = made->test;
-	if (status != BATTEN_OK)
-		batch_engine_destroy(made);
-	else
-		*out = made;
-	return status;
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
 static size_t units_of(const batch_engine *engine)
@@ -71,17 +58,11 @@ static size_t units_of(const batch_engine *engine)
 
 size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 {
-	const batten_device *device = batch_engine_device(engine);
 	const block_lines_shape shape = block_lines_of(plan);
 	const size_t lanes = engine->recipe.lanes;
 	const size_t search_bytes = (BLOCK_INPUT_COUNT + 1) * shape.lines * shape.length *
 	                            search_scalar_size(plan);
-	size_t limit = BLOCK_BYTES;
-	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
-		limit = (size_t)device->max_allocation_bytes;
-	const size_t most = engine->context->options.max_memory;
-	if (most > 0 && limit > most)
-		limit = most;
+	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	size_t searches = units_of(engine) * lanes * SEARCHES_A_LANE;
 	if (searches > limit / search_bytes)
 		searches = limit / search_bytes;

@@ -125,6 +125,40 @@ void batch_engine_keep(batch_engine *e)
 	e->context->engines = e;
 }
 
+batten_status batch_engine_open(batten_context *context, const batch_engine_recipe *recipe,
+                                batch_engine_selftest *selftest, const void *plan,
+                                batch_engine **out, batten_selftest *result)
+{
+	batch_engine *made = batch_engine_find(context, recipe);
+	batten_status status = BATTEN_OK;
+	if (!made) {
+		made = batten_allocate(context, 1, sizeof *made);
+		if (!made)
+			return BATTEN_MEMORY;
+		status = batch_engine_start(made, context, recipe);
+		if (status == BATTEN_OK)
+			status = batch_engine_judge(made, selftest(made, plan));
+		if (status == BATTEN_OK)
+			batch_engine_keep(made);
+	}
+	if (result)
+		*result = made->test;
+	if (status != BATTEN_OK)
+		batch_engine_destroy(made);
+	else
+		*out = made;
+	return status;
+}
+
+size_t batch_engine_launch_bytes(const batch_engine *e, size_t most)
+{
+	const uint64_t device = batch_engine_device(e)->max_allocation_bytes;
+	const size_t host = e->context->options.max_memory;
+	if (device > 0 && most > device)
+		most = (size_t)device;
+	return host > 0 && most > host ? host : most;
+}
+
 void batch_engine_destroy(batch_engine *e)
 {
 	if (!e)

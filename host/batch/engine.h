@@ -6,7 +6,8 @@
  *   status = batch_engine_start(engine, context, &recipe);    session, program, kernel
  *   status = batch_engine_judge(engine, self-test's status);  wrong answers shut the device out
  *   batch_engine_keep(engine);                                from now on the context's
- */
+ *
+ * batch_engine_open() does all of this for engines that have nothing of their own. */
 #ifndef BATTEN_BATCH_ENGINE_H
 #define BATTEN_BATCH_ENGINE_H
 
@@ -56,6 +57,19 @@ batten_status batch_engine_judge(batch_engine *e, batten_status ran);
 void batch_engine_compare(batten_selftest *test, double worst, double tolerance, const char *what);
 
 void batch_engine_keep(batch_engine *e);
+
+/* Runs a self-test of the kernel that is ready on the engine; plan is what its opener was given. */
+typedef batten_status batch_engine_selftest(batch_engine *engine, const void *plan);
+
+/* The context's engine of that recipe, made and tested where there is none yet. result may be NULL and
+ * gets the self-test, of an engine that failed too. Errors: DEVICE, KERNEL, MEMORY. */
+batten_status batch_engine_open(batten_context *context, const batch_engine_recipe *recipe,
+                                batch_engine_selftest *selftest, const void *plan,
+                                batch_engine **out, batten_selftest *result);
+
+/* Most bytes of one launch: most, or what the device or the context allots at a time. */
+size_t batch_engine_launch_bytes(const batch_engine *e, size_t most);
+
 void batch_engine_destroy(batch_engine *e); /* NULL is allowed; releases e itself */
 
 /* Ends all engines of a context. */

@@ -1,4 +1,5 @@
-/* The multilevel search, and the textbook's, which differs in its kernel: one queue of searches, one worker a device, or the C path's threads. */
+/* The multilevel search, and the textbook's, which differs in its kernel: one queue of searches, one
+ * worker a device, or the C path's threads. */
 #include "batch/search_batch.h"
 #include "batch/search_engine.h"
 #include "batch/search_reference.h"
@@ -8,9 +9,7 @@
 typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
 	search_plan *plan;
-	const batten_search_problem *problems;
-	double *y_m;
-	batten_search_result *results;
+	const search_call *call;
 } batch;
 
 static batten_status open_engine(batch_work *work, size_t index, const batten_device *device,
@@ -34,8 +33,8 @@ static batten_status run_block(batch_work *work, batch_engine *engine, const siz
                                size_t count)
 {
 	const batch *b = (const batch *)work;
-	return search_engine_run((search_engine *)engine, b->plan, b->problems, which, count, b->y_m,
-	                         b->results);
+	return search_engine_run((search_engine *)engine, b->plan, b->call->problems, which, count,
+	                         b->call->y_m, b->call->results);
 }
 
 static batten_status run_on_reference(batch_work *work)
@@ -45,25 +44,27 @@ static batten_status run_on_reference(batch_work *work)
 	batten_status status = search_reference_create(b->plan, &reference);
 	size_t which = 0;
 	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
-		search_reference_run(&reference, &b->problems[which],
-		                     b->y_m + which * b->plan->station_count * b->plan->waterline_count,
-		                     &b->results[which]);
+		search_reference_run(&reference, &b->call->problems[which],
+		                     b->call->y_m +
+		                         which * b->plan->station_count * b->plan->waterline_count,
+		                     &b->call->results[which]);
 	search_reference_release(&reference);
 	return status;
 }
 
 /* Two probes a direction and iteration, and what the searches counted beyond; the textbook search
  * counts all. */
-static batten_status count_probes(const batch *b, size_t count)
+static batten_status count_probes(const batch *b)
 {
 	uint8_t *scratch = batten_allocate(b->work.context, b->plan->station_count,
 	                                   b->plan->waterline_count);
 	if (!scratch)
 		return BATTEN_MEMORY;
-	for (size_t p = 0; p < count; p++)
-		if (b->results[p].end != BATTEN_SEARCH_REFUSED)
-			b->results[p].probes += 2 * (uint64_t)b->results[p].iterations *
-			                        search_problem_directions(b->plan, &b->problems[p], scratch);
+	for (size_t p = 0; p < b->call->count; p++)
+		if (b->call->results[p].end != BATTEN_SEARCH_REFUSED)
+			b->call->results[p].probes += 2 * (uint64_t)b->call->results[p].iterations *
+			                              search_problem_directions(b->plan, &b->call->problems[p],
+			                                                        scratch);
 	batten_release(b->work.context, scratch);
 	return BATTEN_OK;
 }
@@ -76,16 +77,14 @@ batten_status multilevel_batch_run(const search_call *call, batten_run *run)
 		                  .block = block_of,
 		                  .run = run_block,
 		                  .run_reference = run_on_reference },
-		        .problems = call->problems,
-		        .y_m = call->y_m,
-		        .results = call->results };
+		        .call = call };
 	batten_status status = search_plan_create(call->context, call->grid, call->count,
 	                                          call->problems, call->options, &b.plan);
 	if (status == BATTEN_OK && call->count > 0)
 		status = search_batch_work(call, b.plan, &b.work, run);
 	if (status == BATTEN_OK && call->count > 0 &&
 	    call->options->algorithm != BATTEN_ALGORITHM_TEXTBOOK)
-		status = count_probes(&b, call->count);
+		status = count_probes(&b);
 	search_plan_destroy(b.plan);
 	return status;
 }

@@ -24,10 +24,14 @@ static bool state_is_global(const net_plan *plan, const batch_engine_recipe *rec
 	return local_bytes(plan, recipe) > device->local_memory_bytes;
 }
 
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	return net_selftest_run(engine, plan);
+}
+
 batten_status net_engine_open(const net_plan *plan, size_t index, const batten_device *device,
                               batch_engine **out, batten_selftest *result)
 {
-	batten_context *context = plan->context;
 	batch_engine_recipe recipe = { .kernel = "net_search",
 		                           .source = kernel_source_net_search,
 		                           .device = index,
@@ -40,25 +44,7 @@ batten_status net_engine_open(const net_plan *plan, size_t index, const batten_d
 	               plan->u.order, plan->v.order,
 	               state_is_global(plan, &recipe, device) ? "-DSTATE=global -DSTATE_IS_GLOBAL"
 	                                                      : "-DSTATE=local");
-	batch_engine *made = batch_engine_find(context, &recipe);
-	batten_status status = BATTEN_OK;
-	if (!made) {
-		made = batten_allocate(context, 1, sizeof *made);
-		if (!made)
-			return BATTEN_MEMORY;
-		status = batch_engine_start(made, context, &recipe);
-		if (status == BATTEN_OK)
-			status = batch_engine_judge(made, net_selftest_run(made, plan));
-		if (status == BATTEN_OK)
-			batch_engine_keep(made);
-	}
-	if (result)
-		*result = made->test;
-	if (status != BATTEN_OK)
-		batch_engine_destroy(made);
-	else
-		*out = made;
-	return status;
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
 size_t net_engine_block(const batch_engine *engine, const net_plan *plan)
@@ -68,12 +54,7 @@ size_t net_engine_block(const batch_engine *engine, const net_plan *plan)
 	                          batch_engine_number_size(engine->recipe.precision);
 	const size_t poles = (NET_ARRAY_COUNT + NET_STATE_COUNT) * net_plan_poles(plan);
 	const size_t group_bytes = (net_pack_sample_count(plan) + poles) * lane_bytes;
-	size_t limit = BLOCK_BYTES;
-	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
-		limit = (size_t)device->max_allocation_bytes;
-	const size_t most = engine->context->options.max_memory;
-	if (most > 0 && limit > most)
-		limit = most;
+	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;

@@ -9,10 +9,15 @@
 /* Most bytes of half-breadths read by one launch: enough to hide it, in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20 };
 
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	(void)plan;
+	return pass_selftest_run(engine);
+}
+
 batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten_device *device,
                                batch_engine **out, batten_selftest *result)
 {
-	batten_context *context = plan->context;
 	batch_engine_recipe recipe = { .kernel = "fairing_pass",
 		                           .source = kernel_source_fairing_pass,
 		                           .device = index,
@@ -22,25 +27,7 @@ batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten
 	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
 	(void)snprintf(recipe.options, sizeof recipe.options, "-DNUMBER_DOUBLE=%d",
 	               pass_launch_in_doubles(device, recipe.precision));
-	batch_engine *made = batch_engine_find(context, &recipe);
-	batten_status status = BATTEN_OK;
-	if (!made) {
-		made = batten_allocate(context, 1, sizeof *made);
-		if (!made)
-			return BATTEN_MEMORY;
-		status = batch_engine_start(made, context, &recipe);
-		if (status == BATTEN_OK)
-			status = batch_engine_judge(made, pass_selftest_run(made));
-		if (status == BATTEN_OK)
-			batch_engine_keep(made);
-	}
-	if (result)
-		*result = made->test;
-	if (status != BATTEN_OK)
-		batch_engine_destroy(made);
-	else
-		*out = made;
-	return status;
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
 size_t pass_engine_block(const batch_engine *engine, const pass_plan *plan)

@@ -88,12 +88,7 @@ size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 	const size_t lanes = engine->shape.lanes;
 	const size_t group_bytes = (SEARCH_ARRAY_COUNT + 3) * plan->node_count * lanes *
 	                           batch_engine_number_size(engine->shape.precision);
-	size_t limit = BLOCK_BYTES;
-	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
-		limit = (size_t)device->max_allocation_bytes;
-	const size_t most = engine->base.context->options.max_memory;
-	if (most > 0 && limit > most)
-		limit = most;
+	const size_t limit = batch_engine_launch_bytes(&engine->base, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;

@@ -6,9 +6,9 @@
 #include "batch/surface_engine.h"
 #include "batch/variants_engine.h"
 
-static batten_status test_offsets(batten_context *context, size_t index,
-                                  const batten_device *device, batten_precision precision,
-                                  batten_search_algorithm algorithm, batten_selftest *result)
+/* The smallest grid: of it only the numbers that choose a shape count. */
+static batten_status plan_searches(batten_context *context, batten_precision precision,
+                                   batten_search_algorithm algorithm, search_plan **out)
 {
 	const double x[] = { 0.0, 1.0, 2.0 };
 	const batten_grid grid = { 3, 3, x, x };
@@ -16,9 +16,16 @@ static batten_status test_offsets(batten_context *context, size_t index,
 	batten_search_options_default(&options);
 	options.precision = precision;
 	options.algorithm = algorithm;
+	return search_plan_create(context, &grid, 0, NULL, &options, out);
+}
+
+static batten_status test_offsets(batten_context *context, size_t index,
+                                  const batten_device *device, batten_precision precision,
+                                  batten_search_algorithm algorithm, batten_selftest *result)
+{
 	search_plan *plan = NULL;
 	search_engine *engine = NULL;
-	const batten_status made = search_plan_create(context, &grid, 0, NULL, &options, &plan);
+	const batten_status made = plan_searches(context, precision, algorithm, &plan);
 	if (made != BATTEN_OK)
 		return made;
 	const search_shape shape = search_shape_choose(plan, index, device);
@@ -42,15 +49,9 @@ static batten_status test_textbook(batten_context *context, size_t index,
 static batten_status test_block(batten_context *context, size_t index, const batten_device *device,
                                 batten_precision precision, batten_selftest *result)
 {
-	const double x[] = { 0.0, 1.0, 2.0 };
-	const batten_grid grid = { 3, 3, x, x };
-	batten_search_options options;
-	batten_search_options_default(&options);
-	options.precision = precision;
-	options.algorithm = BATTEN_ALGORITHM_BLOCK;
 	search_plan *plan = NULL;
 	batch_engine *engine = NULL;
-	batten_status status = search_plan_create(context, &grid, 0, NULL, &options, &plan);
+	batten_status status = plan_searches(context, precision, BATTEN_ALGORITHM_BLOCK, &plan);
 	if (status == BATTEN_OK)
 		status = block_engine_open(plan, index, device, &engine, result);
 	search_plan_destroy(plan);

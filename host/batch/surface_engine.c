@@ -14,11 +14,15 @@ bool surface_engine_returns_doubles(const batten_device *device, batten_precisio
 	return precision == BATTEN_F64 || (device->is_cpu && device->has_f64);
 }
 
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	return surface_selftest_run(engine, plan);
+}
+
 batten_status surface_engine_open(const surface_plan *plan, size_t index,
                                   const batten_device *device, batch_engine **out,
                                   batten_selftest *result)
 {
-	batten_context *context = plan->context;
 	batch_engine_recipe recipe = { .kernel = "surface_grid",
 		                           .source = kernel_source_surface_grid,
 		                           .device = index,
@@ -30,25 +34,7 @@ batten_status surface_engine_open(const surface_plan *plan, size_t index,
 	               "-DSURFACE_OUTPUT=%d -DORDER_U=%zu -DORDER_V=%zu -DRATIONAL=%d -DOUT_DOUBLE=%d",
 	               plan->output, plan->u.order, plan->v.order, plan->rational,
 	               surface_engine_returns_doubles(device, recipe.precision));
-	batch_engine *made = batch_engine_find(context, &recipe);
-	batten_status status = BATTEN_OK;
-	if (!made) {
-		made = batten_allocate(context, 1, sizeof *made);
-		if (!made)
-			return BATTEN_MEMORY;
-		status = batch_engine_start(made, context, &recipe);
-		if (status == BATTEN_OK)
-			status = batch_engine_judge(made, surface_selftest_run(made, plan));
-		if (status == BATTEN_OK)
-			batch_engine_keep(made);
-	}
-	if (result)
-		*result = made->test;
-	if (status != BATTEN_OK)
-		batch_engine_destroy(made);
-	else
-		*out = made;
-	return status;
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
 size_t surface_engine_block(const batch_engine *engine, const surface_plan *plan)

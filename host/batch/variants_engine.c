@@ -23,11 +23,16 @@ static bool room_is_global(const variants_plan *plan, const batch_engine_recipe 
 	return room_bytes(plan, recipe) > device->local_memory_bytes;
 }
 
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	(void)plan;
+	return variants_selftest_run(engine);
+}
+
 batten_status variants_engine_open(const variants_plan *plan, size_t index,
                                    const batten_device *device, batch_engine **out,
                                    batten_selftest *result)
 {
-	batten_context *context = plan->context;
 	batch_engine_recipe recipe = { .kernel = "hull_variants",
 		                           .source = kernel_source_hull_variants,
 		                           .device = index,
@@ -40,25 +45,7 @@ batten_status variants_engine_open(const variants_plan *plan, size_t index,
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s",
 	               room_is_global(plan, &recipe, device) ? "-DSTATE=global -DSTATE_IS_GLOBAL"
 	                                                     : "-DSTATE=local");
-	batch_engine *made = batch_engine_find(context, &recipe);
-	batten_status status = BATTEN_OK;
-	if (!made) {
-		made = batten_allocate(context, 1, sizeof *made);
-		if (!made)
-			return BATTEN_MEMORY;
-		status = batch_engine_start(made, context, &recipe);
-		if (status == BATTEN_OK)
-			status = batch_engine_judge(made, variants_selftest_run(made));
-		if (status == BATTEN_OK)
-			batch_engine_keep(made);
-	}
-	if (result)
-		*result = made->test;
-	if (status != BATTEN_OK)
-		batch_engine_destroy(made);
-	else
-		*out = made;
-	return status;
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
 /* Numbers that travel with a row. */
@@ -72,12 +59,7 @@ size_t variants_engine_block(const batch_engine *engine, const variants_plan *pl
 	const batten_device *device = batch_engine_device(engine);
 	const size_t group_bytes = (row_numbers(plan) * sizeof(double)) * engine->recipe.lanes +
 	                           room_bytes(plan, &engine->recipe);
-	size_t limit = BLOCK_BYTES;
-	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
-		limit = (size_t)device->max_allocation_bytes;
-	const size_t most = engine->context->options.max_memory;
-	if (most > 0 && limit > most)
-		limit = most;
+	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;
