@@ -1413,14 +1413,19 @@ typedef struct batten_vary_result {
 } batten_vary_result;
 
 /* batten_hull_vary() of many rows and the hydrostatics of every variant, in one go: count variants of
- * one parent by swing, one-minus-prismatic, lackenby or moor; options give the method and what all rows
- * have in common (its dcp, dlcb, dp_fore, dp_aft are not read). results [count]. y_m and nodes, both
- * [count][waterlines][stations] on the parent's table, and out [count][draft_count] are the caller's,
- * each may be NULL; of a row that failed all are NaN and OUTSIDE. Agrees with batten_hull_vary() and
- * batten_hull_hydrostatics() within 1e-9 of each value; bit for bit alike whatever the lanes, the
- * batch, the order and (when strict) the device. A row that fails stops no other; batten_hull_vary() of
- * that row tells what can be reached. Moor's method, thesis, other rules than the spline, layouts with
- * points off the grid, and rows whose lines get gaps are worked one by one, on the host.
+ * one parent. Either rows [count] of swing, one-minus-prismatic, lackenby or moor; options give the
+ * method and what all rows have in common (its dcp, dlcb, dp_fore, dp_aft are not read). Or row_options
+ * [count], each all that is asked of its row, of any methods; options is then not read. results [count].
+ * The rest is the caller's, each may be NULL: y_m and nodes, both [count][waterlines][stations] on the
+ * parent's table, of the four methods above only; out [count][draft_count], drafts_m NULL (draft_count
+ * 1) taking each variant's own draft; outcomes [count], as of batten_hull_vary(), the formulas'
+ * parameters and what can be reached of rows worked one by one only; hulls [count], to be destroyed. Of
+ * a row that failed numbers are NaN, nodes OUTSIDE and the hull NULL; it stops no other.
+ * Agrees with batten_hull_vary() and batten_hull_hydrostatics() within 1e-9 of each value; bit for bit
+ * alike whatever the lanes, the batch, the order, the threads and (when strict) the device. Methods that
+ * move no sections bodily, thesis, other rules than the spline, layouts with points off the grid, row
+ * options that differ in more than these four numbers, and rows whose lines get gaps are worked one by
+ * one on the host, shared out to its threads, by the functions named above: the same bits.
  * hydrostatics, batch and run may be NULL. Returns INCOMPLETE when a row failed. Errors: USAGE, INPUT (a
  * parent the method cannot take), DEVICE, KERNEL, MEMORY. */
 typedef struct batten_variants {
@@ -1432,6 +1437,9 @@ typedef struct batten_variants {
 	double *y_m;
 	uint8_t *nodes;
 	batten_hydrostatics *out;
+	const batten_vary_options *row_options;
+	batten_vary_outcome *outcomes;
+	batten_hull **hulls;
 } batten_variants;
 BATTEN_API batten_status batten_hull_vary_measure(batten_context *context,
                                                   const batten_hull *parent,

@@ -233,15 +233,9 @@ static void report(const struct task *task, const struct state *state)
 {
 	batten_vary_outcome *outcome = task->outcome;
 	outcome->target_count = task->count;
-	for (size_t i = 0; i < task->count; i++) {
-		const variation_target *target = &task->targets[i];
-		outcome->targets[i] = (struct batten_vary_target){
-			.name = target->name,
-			.parent = variation_target_value(target, &task->parent->measures),
-			.asked = target->zero + task->asked[i] / target->scale,
-			.got = state->values[i],
-		};
-	}
+	for (size_t i = 0; i < task->count; i++)
+		outcome->targets[i] = variation_target_tell(&task->targets[i], &task->parent->measures,
+		                                            task->asked[i], state->values[i]);
 }
 
 batten_status variation_iterate(const variation_parent *parent, const batten_vary_options *options,

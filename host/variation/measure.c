@@ -3,110 +3,122 @@
 
 #include "batch/variants_batch.h"
 #include "hydrostatics/offsets_tables.h"
+#include "variation/targets.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* Rows of one piece of a batch, whose outcomes are held at once. */
 enum { PIECE = 4096 };
 
-/* A batch and what it stands on. */
-struct task {
-	batten_context *context;
-	const batten_hull *parent;
-	batten_vary_options options;
-	batten_hydrostatics_options hydrostatics;
-	batten_batch_options batch;
-	const batten_variants *v;
-	size_t nodes, singly, failed;
-	/* of a piece */
-	double *asked, *y, *outcomes;
+/* A batch on its way through a device. */
+struct batch {
+	measure_task task;
+	const variation_parent *ready;
+	variants_plan plan;
+	double *asked, *y, *outcomes; /* of a piece */
+	size_t *singly;               /* rows of a piece that the kernel leaves to the host */
+	size_t singly_count, singly_total;
 };
 
 /* ------------------------------------------------------------------------------------------------
  * Rows
  * --------------------------------------------------------------------------------------------- */
 
-/* What is asked of one row, or what is wrong with it. */
-static const char *wrong_number(const struct task *task, const batten_vary_row *row, double *value)
+/* Half-breadths of the device as hulls have them: below 0 is outside. */
+static void take_offsets(const batten_hull *parent, const double *found, double *y, uint8_t *nodes)
 {
-	const bool swing = task->options.method == BATTEN_VARY_SWING;
-	const struct {
-		const char *name;
-		double value, most;
-	} numbers[] = {
-		{ "dcp", swing ? 0 : row->dcp_pct, 1000 },
-		{ "dlcb", row->dlcb_pct, 100 },
-		{ "dp_fore", row->dp_fore_pct, 100 },
-		{ "dp_aft", row->dp_aft_pct, 100 },
-	};
-	for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-		*value = numbers[i].value;
-		if (!(*value >= -100 && *value <= numbers[i].most))
-			return numbers[i].name;
+	for (size_t n = 0; n < hull_node_count(parent) && y; n++)
+		y[n] = found[n] > 0 ? found[n] : 0;
+	for (size_t n = 0; n < hull_node_count(parent) && nodes; n++)
+		nodes[n] = found[n] < 0                              ? BATTEN_NODE_OUTSIDE
+		           : parent->nodes[n] == BATTEN_NODE_UNKNOWN ? BATTEN_NODE_UNKNOWN
+		                                                     : BATTEN_NODE_GIVEN;
+}
+
+/* The variant as a hull: what devices take keeps the parent's table and has no points off it. */
+static batten_status make_hull(const measure_task *task, const double *found, batten_hull **out)
+{
+	batten_hull *hull = NULL;
+	batten_status status = batten_hull_clone(task->context, task->parent, &hull);
+	if (status == BATTEN_OK) {
+		take_offsets(task->parent, found, hull->y_m, hull->nodes);
+		status = variation_mark_source(hull);
 	}
-	return NULL;
-}
-
-static batten_hydrostatics *forms_of(const struct task *task, size_t which)
-{
-	return task->v->out ? task->v->out + which * task->v->draft_count : NULL;
-}
-
-/* A row without a variant. */
-static void leave_empty(struct task *task, size_t which, batten_status status)
-{
-	const batten_variants *v = task->v;
-	batten_vary_result *result = &v->results[which];
-	result->status = status;
-	result->cp = result->lcb_pct_lbp_fwd = NAN;
-	task->failed++;
-	for (size_t n = 0; n < task->nodes && v->y_m; n++)
-		v->y_m[which * task->nodes + n] = NAN;
-	if (v->nodes)
-		memset(v->nodes + which * task->nodes, BATTEN_NODE_OUTSIDE, task->nodes);
-	double *form = (double *)forms_of(task, which);
-	for (size_t i = 0; form && i < v->draft_count * BATTEN_HYDROSTATICS_COUNT; i++)
-		form[i] = NAN;
-}
-
-/* The variant of one row, made and measured on the host. Failing rows are no error. */
-static batten_status work_singly(struct task *task, size_t which)
-{
-	const batten_variants *v = task->v;
-	batten_vary_result *result = &v->results[which];
-	batten_vary_outcome outcome;
-	batten_measures measures;
-	batten_hull *variant = NULL;
-	batten_vary_options options = task->options;
-	options.dcp_pct = v->rows[which].dcp_pct;
-	options.dlcb_pct = v->rows[which].dlcb_pct;
-	options.dp_fore_pct = v->rows[which].dp_fore_pct;
-	options.dp_aft_pct = v->rows[which].dp_aft_pct;
-	task->singly++;
-	batten_status status = batten_hull_vary(task->context, task->parent, &options, &variant,
-	                                        &outcome);
-	result->passes = outcome.passes;
 	if (status == BATTEN_OK)
-		status = variation_measure(task->context, variant, &measures);
-	if (status == BATTEN_OK && v->out)
-		status = batten_hull_hydrostatics(task->context, variant, &task->hydrostatics,
-		                                  v->draft_count, v->drafts_m, forms_of(task, which));
+		*out = hull;
+	else
+		batten_hull_destroy(hull);
+	return status;
+}
+
+static batten_status keep(struct batch *b, size_t which, size_t i)
+{
+	const batten_variants *v = b->task.v;
+	const double *outcome = b->outcomes + i * variants_plan_outcome(&b->plan);
+	const double *found = b->y ? b->y + i * b->task.nodes : NULL;
+	if (v->y_m || v->nodes)
+		take_offsets(b->task.parent, found, v->y_m ? v->y_m + which * b->task.nodes : NULL,
+		             v->nodes ? v->nodes + which * b->task.nodes : NULL);
+	if (v->out)
+		offsets_tables_take(b->task.parent, &b->task.hydrostatics, b->task.draft_count,
+		                    v->drafts_m ? v->drafts_m : &b->task.parent->draft_m, outcome,
+		                    measure_forms_of(&b->task, which));
+	return v->hulls ? make_hull(&b->task, found, &v->hulls[which]) : BATTEN_OK;
+}
+
+/* What batten_hull_vary() would tell of a row. */
+static void tell(const struct batch *b, const batten_vary_options *options,
+                 const batten_vary_result *result, batten_vary_outcome *out)
+{
+	variation_target targets[BATTEN_VARY_TARGETS_MOST];
+	*out = (batten_vary_outcome){ .status = result->status, .passes = result->passes };
+	(void)snprintf(out->reason, sizeof out->reason, "%s", result->reason);
+	variation_warn_of_size(options, out);
+	if (result->status != BATTEN_OK)
+		return;
+	batten_measures got = b->ready->measures;
+	got.cp = result->cp;
+	got.lcb_pct_lbp_fwd = result->lcb_pct_lbp_fwd;
+	out->target_count = variation_targets(options, &b->ready->measures, targets);
+	for (size_t i = 0; i < out->target_count; i++)
+		out->targets[i] = variation_target_tell(&targets[i], &b->ready->measures, targets[i].asked,
+		                                        variation_target_value(&targets[i], &got));
+}
+
+/* Takes what the device found for item i of a piece, row which of the batch. */
+static batten_status take_row(struct batch *b, size_t which, size_t i)
+{
+	const double *outcome = b->outcomes + i * variants_plan_outcome(&b->plan);
+	const batten_vary_options options = measure_row_options(&b->task, which);
+	const char *method = batten_vary_method_name((size_t)options.method);
+	batten_vary_result *result = &b->task.v->results[which];
+	*result = (batten_vary_result){ .passes = (unsigned)outcome[VARIANTS_OUT_TURNS],
+		                            .cp = outcome[VARIANTS_OUT_CP],
+		                            .lcb_pct_lbp_fwd = outcome[VARIANTS_OUT_LCB] };
+	batten_status status = variation_check_options(b->task.context, &options);
 	if (status != BATTEN_OK) {
-		batten_hull_destroy(variant);
+		result->passes = 0;
 		(void)snprintf(result->reason, sizeof result->reason, "%.119s",
-		               batten_context_error(task->context));
-		leave_empty(task, which, status);
-		return status == BATTEN_MEMORY ? status : BATTEN_OK;
+		               batten_context_error(b->task.context));
+		measure_leave_empty(&b->task, which, status);
+	} else if (outcome[VARIANTS_OUT_END] == VARIANTS_END_IRREGULAR) {
+		b->singly[b->singly_count++] = which;
+		return BATTEN_OK;
+	} else if (outcome[VARIANTS_OUT_END] != VARIANTS_END_GOOD) {
+		const bool folded = outcome[VARIANTS_OUT_END] == VARIANTS_END_FOLDED;
+		(void)snprintf(result->reason, sizeof result->reason,
+		               folded ? "%s: out of reach, sections would run into each other"
+		                      : "%s: out of reach, still off by %.3g after %u passes",
+		               method, outcome[VARIANTS_OUT_OFF], result->passes);
+		measure_leave_empty(&b->task, which, BATTEN_INPUT);
+	} else {
+		status = keep(b, which, i);
+		if (status != BATTEN_OK)
+			return status;
 	}
-	result->cp = measures.cp;
-	result->lcb_pct_lbp_fwd = measures.lcb_pct_lbp_fwd;
-	if (v->y_m)
-		memcpy(v->y_m + which * task->nodes, variant->y_m, task->nodes * sizeof *v->y_m);
-	if (v->nodes)
-		memcpy(v->nodes + which * task->nodes, variant->nodes, task->nodes);
-	batten_hull_destroy(variant);
+	if (b->task.v->outcomes)
+		tell(b, &options, result, &b->task.v->outcomes[which]);
 	return BATTEN_OK;
 }
 
@@ -114,108 +126,78 @@ static batten_status work_singly(struct task *task, size_t which)
  * A piece of the batch on the device
  * --------------------------------------------------------------------------------------------- */
 
-static void take_offsets(const struct task *task, size_t which, const double *y)
+static void ask(struct batch *b, size_t which, double *asked)
 {
-	const batten_variants *v = task->v;
-	for (size_t n = 0; n < task->nodes && v->y_m; n++)
-		v->y_m[which * task->nodes + n] = y[n] > 0 ? y[n] : 0;
-	for (size_t n = 0; n < task->nodes && v->nodes; n++)
-		v->nodes[which * task->nodes + n] = y[n] < 0 ? BATTEN_NODE_OUTSIDE
-		                                    : task->parent->nodes[n] == BATTEN_NODE_UNKNOWN
-		                                        ? BATTEN_NODE_UNKNOWN
-		                                        : BATTEN_NODE_GIVEN;
+	const batten_vary_options options = measure_row_options(&b->task, which);
+	const bool good = variation_check_options(b->task.context, &options) == BATTEN_OK;
+	asked[VARIANTS_ASK_FULLNESS] = good ? options.dcp_pct : 0;
+	asked[VARIANTS_ASK_CENTRE] = good ? options.dlcb_pct : 0;
+	asked[VARIANTS_ASK_BODY_AFT] = good ? options.dp_aft_pct / 100 : 0;
+	asked[VARIANTS_ASK_BODY_FORE] = good ? options.dp_fore_pct / 100 : 0;
 }
 
-static batten_status take_row(struct task *task, const variants_plan *plan, size_t which, size_t i)
-{
-	const double *outcome = task->outcomes + i * variants_plan_outcome(plan);
-	batten_vary_result *result = &task->v->results[which];
-	const char *method = batten_vary_method_name((size_t)task->options.method);
-	double value = 0;
-	const char *wrong = wrong_number(task, &task->v->rows[which], &value);
-	*result = (batten_vary_result){ .status = BATTEN_OK,
-		                            .passes = (unsigned)outcome[VARIANTS_OUT_TURNS],
-		                            .cp = outcome[VARIANTS_OUT_CP],
-		                            .lcb_pct_lbp_fwd = outcome[VARIANTS_OUT_LCB] };
-	if (wrong) {
-		(void)snprintf(result->reason, sizeof result->reason, "%s is %g percent, out of its range",
-		               wrong, value);
-		leave_empty(task, which, BATTEN_USAGE);
-	} else if (outcome[VARIANTS_OUT_END] == VARIANTS_END_IRREGULAR) {
-		return work_singly(task, which);
-	} else if (outcome[VARIANTS_OUT_END] != VARIANTS_END_GOOD) {
-		const bool folded = outcome[VARIANTS_OUT_END] == VARIANTS_END_FOLDED;
-		(void)snprintf(result->reason, sizeof result->reason,
-		               folded ? "%s: out of reach, sections would run into each other"
-		                      : "%s: out of reach, still off by %.3g after %u passes",
-		               method, outcome[VARIANTS_OUT_OFF], result->passes);
-		leave_empty(task, which, BATTEN_INPUT);
-	} else {
-		if (task->y)
-			take_offsets(task, which, task->y + i * task->nodes);
-		if (task->v->out)
-			offsets_tables_take(task->parent, &task->hydrostatics, task->v->draft_count,
-			                    task->v->drafts_m, outcome, forms_of(task, which));
-	}
-	return BATTEN_OK;
-}
-
-static batten_status run_piece(struct task *task, variants_plan *plan, size_t first, size_t count,
-                               batten_run *run)
+static batten_status run_piece(struct batch *b, size_t first, size_t count, batten_run *run)
 {
 	batten_run told = { .strict = true };
-	for (size_t i = 0; i < count; i++) {
-		const batten_vary_row *row = &task->v->rows[first + i];
-		double *asked = task->asked + i * VARIANTS_ASK_COUNT, value = 0;
-		const bool good = !wrong_number(task, row, &value);
-		asked[VARIANTS_ASK_FULLNESS] = good ? row->dcp_pct : 0;
-		asked[VARIANTS_ASK_CENTRE] = good ? row->dlcb_pct : 0;
-		asked[VARIANTS_ASK_BODY_AFT] = good ? row->dp_aft_pct / 100 : 0;
-		asked[VARIANTS_ASK_BODY_FORE] = good ? row->dp_fore_pct / 100 : 0;
-	}
-	plan->count = count;
-	plan->asked = task->asked;
-	plan->found_y_m = task->y;
-	plan->out = task->outcomes;
-	batten_status status = variants_batch_run(plan, &told);
+	for (size_t i = 0; i < count; i++)
+		ask(b, first + i, b->asked + i * VARIANTS_ASK_COUNT);
+	b->plan.count = count;
+	b->plan.asked = b->asked;
+	b->plan.found_y_m = b->y;
+	b->plan.out = b->outcomes;
+	b->singly_count = 0;
+	batten_status status = variants_batch_run(&b->plan, &told);
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
-		status = take_row(task, plan, first + i, i);
+		status = take_row(b, first + i, i);
+	if (status == BATTEN_OK)
+		status = measure_on_host(&b->task, b->singly_count, b->singly);
+	b->singly_total += b->singly_count;
 	told.seconds += run->seconds;
 	*run = told;
 	return status;
 }
 
-static batten_status run_pieces(struct task *task, const variation_parent *ready, batten_run *run)
+static batten_status make_plan(struct batch *b, size_t piece)
 {
+	const measure_task *task = &b->task;
 	const batten_variants *v = task->v;
-	const size_t piece = v->count < PIECE ? v->count : PIECE;
-	variants_plan plan = { 0 };
+	const double *drafts = v->drafts_m ? v->drafts_m : &task->parent->draft_m;
 	batten_status status = variants_plan_create(task->context, task->parent->station_count,
-	                                            task->parent->waterline_count, v->draft_count,
-	                                            &plan);
+	                                            task->parent->waterline_count, task->draft_count,
+	                                            &b->plan);
 	if (status == BATTEN_OK)
-		status = offsets_tables_fill(task->parent, v->drafts_m, task->parent->draft_m, &plan);
+		status = offsets_tables_fill(task->parent, drafts, task->parent->draft_m, &b->plan);
 	if (status == BATTEN_OK)
-		status = variation_tables_fill(ready, &task->options, &plan);
-	plan.device = task->batch.device;
-	plan.lanes = task->batch.lanes;
-	plan.work_group = task->batch.work_group;
-	if (status == BATTEN_OK) {
-		const bool kept = v->y_m || v->nodes;
-		const size_t outcome = variants_plan_outcome(&plan) * sizeof(double);
-		task->asked = batten_allocate(task->context, piece, VARIANTS_ASK_COUNT * sizeof(double));
-		task->outcomes = batten_allocate(task->context, piece, outcome);
-		task->y = kept ? batten_allocate(task->context, piece, task->nodes * sizeof(double)) : NULL;
-		if (!task->asked || !task->outcomes || (kept && !task->y))
-			status = BATTEN_MEMORY;
-	}
-	for (size_t first = 0; first < v->count && status == BATTEN_OK; first += piece)
-		status = run_piece(task, &plan, first, v->count - first < piece ? v->count - first : piece,
-		                   run);
-	batten_release(task->context, task->asked);
-	batten_release(task->context, task->outcomes);
-	batten_release(task->context, task->y);
-	variants_plan_destroy(&plan);
+		status = variation_tables_fill(b->ready, &task->options, &b->plan);
+	if (status != BATTEN_OK)
+		return status;
+	b->plan.device = task->batch.device;
+	b->plan.lanes = task->batch.lanes;
+	b->plan.work_group = task->batch.work_group;
+	const bool kept = v->y_m || v->nodes || v->hulls;
+	const size_t outcome = variants_plan_outcome(&b->plan) * sizeof(double);
+	b->asked = batten_allocate(task->context, piece, VARIANTS_ASK_COUNT * sizeof(double));
+	b->outcomes = batten_allocate(task->context, piece, outcome);
+	b->singly = batten_allocate(task->context, piece, sizeof *b->singly);
+	b->y = kept ? batten_allocate(task->context, piece, task->nodes * sizeof(double)) : NULL;
+	return b->asked && b->outcomes && b->singly && (!kept || b->y) ? BATTEN_OK : BATTEN_MEMORY;
+}
+
+/* The whole batch on the device, piece by piece. *singly gets the rows that the host took. */
+static batten_status run_on_device(const measure_task *task, const variation_parent *ready,
+                                   size_t *singly, batten_run *run)
+{
+	struct batch b = { .task = *task, .ready = ready };
+	const size_t rows = task->v->count, piece = rows < PIECE ? rows : PIECE;
+	batten_status status = make_plan(&b, piece);
+	for (size_t first = 0; first < rows && status == BATTEN_OK; first += piece)
+		status = run_piece(&b, first, rows - first < piece ? rows - first : piece, run);
+	batten_release(task->context, b.asked);
+	batten_release(task->context, b.outcomes);
+	batten_release(task->context, b.singly);
+	batten_release(task->context, b.y);
+	variants_plan_destroy(&b.plan);
+	*singly = b.singly_total;
 	return status;
 }
 
@@ -223,30 +205,109 @@ static batten_status run_pieces(struct task *task, const variation_parent *ready
  * The whole
  * --------------------------------------------------------------------------------------------- */
 
-static batten_status check(struct task *task, const batten_vary_options *options,
-                           const batten_hydrostatics_options *forms,
-                           const batten_batch_options *batch)
+/* Methods whose variants stand on the parent's table. */
+static bool keeps_table(batten_vary_method method)
 {
-	const batten_hull *parent = task->parent;
-	const double low = parent->z_m[0], high = parent->z_m[parent->waterline_count - 1];
-	batten_status status = BATTEN_OK;
-	if (options->struct_size != sizeof *options)
+	return (int)method >= BATTEN_VARY_SWING && method <= BATTEN_VARY_MOOR;
+}
+
+static batten_status check_options(measure_task *task, const batten_vary_options *options)
+{
+	const batten_variants *v = task->v;
+	if (v->row_options) {
+		for (size_t i = 0; i < v->count && (v->y_m || v->nodes); i++)
+			if (!keeps_table(v->row_options[i].method))
+				return batten_fail(task->context, BATTEN_USAGE,
+				                   "row %zu: half-breadths on the parent's table are asked of a "
+				                   "method that changes it",
+				                   i);
+		if (v->count > 0)
+			task->options = v->row_options[0];
+		return BATTEN_OK;
+	}
+	if (!options || options->struct_size != sizeof *options)
 		return batten_fail(task->context, BATTEN_USAGE,
 		                   "vary options: not filled by batten_vary_options_default()");
-	if ((int)options->method < BATTEN_VARY_SWING || options->method > BATTEN_VARY_MOOR)
+	if (!keeps_table(options->method))
 		return batten_fail(task->context, BATTEN_USAGE,
 		                   "method %d: swing, one-minus-prismatic, lackenby or moor is expected of "
-		                   "rows",
+		                   "rows of numbers",
 		                   (int)options->method);
 	if (fabs(options->lcb_used_pct) > 50)
 		return batten_fail(task->context, BATTEN_USAGE, "lcb_used is %g, expected -50 to 50",
 		                   options->lcb_used_pct);
 	task->options = *options;
-	status = quantities_options(task->context, forms, &task->hydrostatics);
+	return BATTEN_OK;
+}
+
+static batten_status check(measure_task *task, const batten_vary_options *options,
+                           const batten_hydrostatics_options *forms,
+                           const batten_batch_options *batch)
+{
+	const batten_hull *parent = task->parent;
+	const double low = parent->z_m[0], high = parent->z_m[parent->waterline_count - 1];
+	batten_status status = check_options(task, options);
+	if (status == BATTEN_OK)
+		status = quantities_options(task->context, forms, &task->hydrostatics);
 	if (status == BATTEN_OK)
 		status = variants_options(task->context, batch, &task->batch);
-	for (size_t d = 0; d < task->v->draft_count && status == BATTEN_OK; d++)
-		status = quantities_check_draft(task->context, low, high, task->v->drafts_m[d]);
+	if (!task->v->drafts_m && task->v->draft_count > 1 && status == BATTEN_OK)
+		status = batten_fail(task->context, BATTEN_USAGE,
+		                     "%zu drafts without a list, expected 1 at most", task->v->draft_count);
+	/* of methods that change the table each variant has its own */
+	for (size_t d = 0; d < task->draft_count && task->v->drafts_m && status == BATTEN_OK; d++)
+		if (keeps_table(task->options.method))
+			status = quantities_check_draft(task->context, low, high, task->v->drafts_m[d]);
+	return status;
+}
+
+static bool alike(double a, double b)
+{
+	return a == b || (isnan(a) && isnan(b));
+}
+
+/* Whether one set of tables serves all rows. */
+static bool rows_share_tables(const measure_task *task)
+{
+	const batten_vary_options *rows = task->v->row_options, *first = &task->options;
+	for (size_t i = 0; i < task->v->count && rows; i++)
+		if (rows[i].method != first->method || rows[i].first_pass != first->first_pass ||
+		    rows[i].thesis != first->thesis || !alike(rows[i].lcb_used_pct, first->lcb_used_pct))
+			return false;
+	return true;
+}
+
+static batten_status run_all_on_host(const measure_task *task)
+{
+	const size_t count = task->v->count;
+	size_t *which = batten_allocate(task->context, count, sizeof *which);
+	if (!which)
+		return BATTEN_MEMORY;
+	for (size_t i = 0; i < count; i++)
+		which[i] = i;
+	const batten_status status = measure_on_host(task, count, which);
+	batten_release(task->context, which);
+	return status;
+}
+
+static batten_status run_all(const measure_task *task, size_t *singly, batten_run *run)
+{
+	const batten_variants *v = task->v;
+	variation_parent ready = { 0 };
+	batten_status status = BATTEN_OK;
+	*singly = v->count;
+	if (keeps_table(task->options.method)) {
+		status = variation_parent_create(task->context, task->parent, &ready);
+		if (status == BATTEN_OK)
+			status = variation_parent_sections(&ready, task->options.thesis);
+	}
+	if (status == BATTEN_OK)
+		status = variation_tables_fit(task->parent, &task->options) && rows_share_tables(task) &&
+		                 offsets_tables_fit(task->parent, task->hydrostatics.quadrature,
+		                                    task->draft_count)
+		             ? run_on_device(task, &ready, singly, run)
+		             : run_all_on_host(task);
+	variation_parent_destroy(&ready);
 	return status;
 }
 
@@ -256,32 +317,30 @@ batten_status batten_hull_vary_measure(batten_context *context, const batten_hul
                                        const batten_batch_options *batch,
                                        const batten_variants *variants, batten_run *run)
 {
-	struct task task = {
-		.context = context, .parent = parent, .v = variants, .nodes = hull_node_count(parent)
-	};
+	measure_task task = { .context = context,
+		                  .parent = parent,
+		                  .v = variants,
+		                  .nodes = hull_node_count(parent),
+		                  .draft_count = variants->draft_count };
 	batten_run told = { .strict = true };
-	variation_parent ready = { 0 };
+	size_t singly = 0, failed = 0;
+	for (size_t i = 0; i < variants->count && variants->hulls; i++)
+		variants->hulls[i] = NULL;
 	batten_status status = check(&task, options, forms, batch);
+	if (status == BATTEN_OK)
+		status = run_all(&task, &singly, &told);
+	for (size_t i = 0; i < variants->count && variants->hulls && status != BATTEN_OK; i++) {
+		batten_hull_destroy(variants->hulls[i]);
+		variants->hulls[i] = NULL;
+	}
 	if (status != BATTEN_OK)
 		return status;
-	status = variation_parent_create(context, parent, &ready);
-	if (status == BATTEN_OK)
-		status = variation_parent_sections(&ready, options->thesis);
-	if (status == BATTEN_OK && variation_tables_fit(parent, options) &&
-	    offsets_tables_fit(parent, task.hydrostatics.quadrature, variants->draft_count)) {
-		status = run_pieces(&task, &ready, &told);
-	} else {
-		for (size_t i = 0; i < variants->count && status == BATTEN_OK; i++) {
-			variants->results[i] = (batten_vary_result){ .status = BATTEN_OK };
-			status = work_singly(&task, i);
-		}
-	}
-	variation_parent_destroy(&ready);
-	variants_tell_singly(&told, task.singly, variants->count);
-	if (status == BATTEN_OK && run)
+	variants_tell_singly(&told, singly, variants->count);
+	if (run)
 		*run = told;
-	if (status == BATTEN_OK && task.failed > 0)
-		status = batten_fail(context, BATTEN_INCOMPLETE, "%zu of %zu variants failed", task.failed,
-		                     variants->count);
-	return status;
+	for (size_t i = 0; i < variants->count; i++)
+		failed += variants->results[i].status != BATTEN_OK;
+	return failed == 0 ? BATTEN_OK
+	                   : batten_fail(context, BATTEN_INCOMPLETE, "%zu of %zu variants failed",
+	                                 failed, variants->count);
 }

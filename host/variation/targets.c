@@ -11,6 +11,16 @@ double variation_target_value(const variation_target *target, const batten_measu
 	return ((const double *)measures)[target->measure];
 }
 
+struct batten_vary_target variation_target_tell(const variation_target *target,
+                                                const batten_measures *parent, double asked,
+                                                double got)
+{
+	return (struct batten_vary_target){ .name = target->name,
+		                                .parent = variation_target_value(target, parent),
+		                                .asked = target->zero + asked / target->scale,
+		                                .got = got };
+}
+
 /* A change in percent of the parent's value. */
 static variation_target part(size_t measure, const batten_measures *parent, double asked)
 {

@@ -19,4 +19,9 @@ size_t variation_targets(const batten_vary_options *options, const batten_measur
 
 double variation_target_value(const variation_target *target, const batten_measures *measures);
 
+/* A target as outcomes tell it, asked being a parameter. */
+struct batten_vary_target variation_target_tell(const variation_target *target,
+                                                const batten_measures *parent, double asked,
+                                                double got);
+
 #endif

@@ -137,6 +137,24 @@ batten_status variation_stretch_along(batten_context *context, const batten_hull
 /* INPUT where a variant is no table that batten_hull_create() would take. */
 batten_status variation_check_size(const batten_hull *variant);
 
+/* A parent made ready, for the thesis's procedure and for ours, each when first needed. */
+typedef struct variation_family {
+	batten_context *context;
+	const batten_hull *parent;
+	variation_parent ready[3];
+	bool made[3];
+} variation_family;
+/* As batten_hull_vary(); outcome is expected. */
+batten_status variation_family_vary(variation_family *family, const batten_vary_options *options,
+                                    batten_hull **out, batten_vary_outcome *outcome);
+void variation_family_destroy(variation_family *family);
+
+/* Numbers within their ranges, and everything there that the method takes. Errors: USAGE. */
+batten_status variation_check_options(batten_context *context, const batten_vary_options *options);
+
+/* Warns of changes that are fractions where percent is meant, perhaps; only of numbers the method takes. */
+void variation_warn_of_size(const batten_vary_options *options, batten_vary_outcome *outcome);
+
 /* Measures asked for, and the iteration that meets them (iterate.c). Errors as
  * batten_hull_vary(). */
 batten_status variation_iterate(const variation_parent *parent, const batten_vary_options *options,

@@ -155,7 +155,7 @@ static batten_status check_nonlinear(batten_context *context, const batten_vary_
 	return status;
 }
 
-static batten_status check_options(batten_context *context, const batten_vary_options *options)
+batten_status variation_check_options(batten_context *context, const batten_vary_options *options)
 {
 	if (options->struct_size != sizeof *options)
 		return batten_fail(context, BATTEN_USAGE,
@@ -182,8 +182,7 @@ static batten_status check_options(batten_context *context, const batten_vary_op
 	}
 }
 
-/* Only of numbers the method takes. */
-static void warn_of_size(const batten_vary_options *options, batten_vary_outcome *outcome)
+void variation_warn_of_size(const batten_vary_options *options, batten_vary_outcome *outcome)
 {
 	const bool both = options->method == BATTEN_VARY_ONE_MINUS_PRISMATIC ||
 	                  options->method == BATTEN_VARY_LACKENBY;
@@ -215,15 +214,7 @@ static void warn_of_size(const batten_vary_options *options, batten_vary_outcome
  * Rows
  * --------------------------------------------------------------------------------------------- */
 
-/* The parent made ready, for the thesis's procedure and for ours, each when first needed. */
-struct family {
-	batten_context *context;
-	const batten_hull *parent;
-	variation_parent ready[3];
-	bool made[3];
-};
-
-static batten_status make_ready(struct family *family, const batten_vary_options *options,
+static batten_status make_ready(variation_family *family, const batten_vary_options *options,
                                 const variation_parent **out)
 {
 	const bool sections = options->method <= BATTEN_VARY_MOOR ||
@@ -243,27 +234,27 @@ static batten_status make_ready(struct family *family, const batten_vary_options
 	return status;
 }
 
-static void family_destroy(struct family *family)
+void variation_family_destroy(variation_family *family)
 {
 	for (size_t k = 0; k < 3; k++)
 		if (family->made[k])
 			variation_parent_destroy(&family->ready[k]);
 }
 
-static batten_status vary(struct family *family, const batten_vary_options *options,
-                          batten_hull **out, batten_vary_outcome *outcome)
+batten_status variation_family_vary(variation_family *family, const batten_vary_options *options,
+                                    batten_hull **out, batten_vary_outcome *outcome)
 {
 	*outcome = (batten_vary_outcome){ .status = BATTEN_OK };
 	const variation_parent *parent = NULL;
 	batten_hull *variant = NULL;
-	batten_status status = check_options(family->context, options);
+	batten_status status = variation_check_options(family->context, options);
 	if (status == BATTEN_OK)
 		status = make_ready(family, options, &parent);
 	if (status == BATTEN_OK)
 		status = variation_iterate(parent, options, &variant, outcome);
 	if (status == BATTEN_OK)
 		status = variation_mark_source(variant);
-	warn_of_size(options, outcome);
+	variation_warn_of_size(options, outcome);
 	outcome->status = status;
 	if (status != BATTEN_OK) {
 		(void)snprintf(outcome->reason, sizeof outcome->reason, "%s",
@@ -280,10 +271,11 @@ batten_status batten_hull_vary(batten_context *context, const batten_hull *paren
                                batten_vary_outcome *outcome)
 {
 	*out = NULL;
-	struct family family = { .context = context, .parent = parent };
+	variation_family family = { .context = context, .parent = parent };
 	batten_vary_outcome ignored;
-	const batten_status status = vary(&family, options, out, outcome ? outcome : &ignored);
-	family_destroy(&family);
+	const batten_status status = variation_family_vary(&family, options, out,
+	                                                   outcome ? outcome : &ignored);
+	variation_family_destroy(&family);
 	return status;
 }
 
@@ -291,13 +283,14 @@ batten_status batten_hull_vary_batch(batten_context *context, const batten_hull 
                                      size_t count, const batten_vary_options *options,
                                      batten_hull **variants, batten_vary_outcome *outcomes)
 {
-	struct family family = { .context = context, .parent = parent };
+	variation_family family = { .context = context, .parent = parent };
 	size_t failed = 0;
 	for (size_t i = 0; i < count; i++) {
 		variants[i] = NULL;
-		failed += vary(&family, &options[i], &variants[i], &outcomes[i]) != BATTEN_OK;
+		failed += variation_family_vary(&family, &options[i], &variants[i], &outcomes[i]) !=
+		          BATTEN_OK;
 	}
-	family_destroy(&family);
+	variation_family_destroy(&family);
 	if (failed > 0)
 		return batten_fail(context, BATTEN_INCOMPLETE, "%zu of %zu variants failed", failed, count);
 	return BATTEN_OK;

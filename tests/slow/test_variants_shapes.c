@@ -22,8 +22,14 @@ static void run(batten_context *context, const batten_hull *parent, int device, 
 	batch.device = device;
 	batch.lanes = lanes;
 	batch.work_group = group;
-	const batten_variants variants = { ROWS,       b->rows, DRAFTS,   drafts,
-		                               b->results, b->y,    b->nodes, b->out };
+	const batten_variants variants = { .count = ROWS,
+		                               .rows = b->rows,
+		                               .draft_count = DRAFTS,
+		                               .drafts_m = drafts,
+		                               .results = b->results,
+		                               .y_m = b->y,
+		                               .nodes = b->nodes,
+		                               .out = b->out };
 	batten_run told;
 	for (size_t i = 0; i < ROWS; i++) {
 		const double part = (double)i / (ROWS - 1) - 0.5;
