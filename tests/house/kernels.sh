@@ -29,7 +29,7 @@ forbid 'cl-(fast-relaxed|unsafe|mad|finite)|FP_CONTRACT[ \t]+ON' 'relaxed arithm
 count=0
 for file in "$embedded"/*.cl; do
 	for double in 0 1; do
-		for lanes in 1 2 4 8 16; do
+		for lanes in 1 2 16; do
 			for state in local global; do
 				options="-DBATTEN_DOUBLE=$double -DBATTEN_LANES=$lanes -DSTATE=$state"
 				# shellcheck disable=SC2086
