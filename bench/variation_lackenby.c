@@ -141,6 +141,7 @@ static batten_status write_pieces(const bench_settings *settings, workload *w, c
 {
 	const char *columns[BATTEN_HYDROSTATICS_COUNT];
 	workload piece = *w;
+	batten_table_file *file = NULL;
 	batten_status status = BATTEN_OK;
 	for (size_t i = 0; i < BATTEN_HYDROSTATICS_COUNT; i++)
 		columns[i] = batten_hydrostatics_name(i);
@@ -148,11 +149,19 @@ static batten_status write_pieces(const bench_settings *settings, workload *w, c
 		piece.count = w->count - first < PIECE ? w->count - first : PIECE;
 		piece.rows = w->rows + first;
 		status = run_batch(settings, &piece, settings->device, BATTEN_F64, NULL);
-		const batten_table table = { "BSRA trawler",       "spline", BATTEN_HYDROSTATICS_COUNT,
-			                         piece.count * DRAFTS, columns,  (const double *)w->out };
+		const batten_table table = { .name = "BSRA trawler",
+			                         .quadrature = "spline",
+			                         .column_count = BATTEN_HYDROSTATICS_COUNT,
+			                         .row_count = piece.count * DRAFTS,
+			                         .columns = columns,
+			                         .values = (const double *)w->out };
 		if (status == BATTEN_OK)
-			status = batten_table_write(settings->context, &table, path);
+			status = file ? batten_table_add(file, &table)
+			              : batten_table_open(settings->context, &table, path, &file);
 	}
+	if (status == BATTEN_OK)
+		return batten_table_commit(file);
+	batten_table_abandon(file);
 	return status;
 }
 

@@ -1360,18 +1360,31 @@ typedef struct batten_warning {
 BATTEN_API size_t batten_hydrostatics_warnings(const batten_hydrostatics *hydrostatics,
                                                batten_warning *warnings, size_t capacity);
 
-/* Numbers in named columns, as files take them. */
+/* Numbers in named columns, as files take them, after columns of text where there are any. */
 typedef struct batten_table {
 	const char *name, *quadrature; /* of the hull and of the rule */
 	size_t column_count, row_count;
 	const char *const *columns; /* names with units */
 	const double *values;       /* [rows][columns]; NaN is an empty cell, null in JSON */
+	size_t text_count;
+	const char *const *text_columns;
+	const char *const *texts; /* [rows][text columns], UTF-8; NULL likewise */
 } batten_table;
 
 /* Writes the table as CSV or JSON, as path ends in .csv or .json; the file is replaced at once or not
  * at all. Errors: USAGE (another ending), IO, MEMORY. */
 BATTEN_API batten_status batten_table_write(batten_context *context, const batten_table *table,
                                             const char *path);
+
+/* The same piece by piece, in bounded memory: open writes names and rows of the first piece, add those
+ * of others with the same columns; commit replaces the file, abandon leaves everything as it was. Both
+ * end the handle; abandon takes NULL. */
+typedef struct batten_table_file batten_table_file;
+BATTEN_API batten_status batten_table_open(batten_context *context, const batten_table *table,
+                                           const char *path, batten_table_file **file);
+BATTEN_API batten_status batten_table_add(batten_table_file *file, const batten_table *table);
+BATTEN_API batten_status batten_table_commit(batten_table_file *file);
+BATTEN_API void batten_table_abandon(batten_table_file *file);
 
 /* ------------------------------------------------------------------------------------------------
  * Many hulls of one table

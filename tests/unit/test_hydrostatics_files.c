@@ -28,7 +28,12 @@ static void tables(void **state)
 	batten_context *context = make_context();
 	const char *columns[] = { "draft_m", "kb_m" };
 	const double values[] = { 0.1, 1.0 / 3, 2, NAN };
-	batten_table table = { "a \"b\"", "spline", 2, 2, columns, values };
+	batten_table table = { .name = "a \"b\"",
+		                   .quadrature = "spline",
+		                   .column_count = 2,
+		                   .row_count = 2,
+		                   .columns = columns,
+		                   .values = values };
 	(void)snprintf(path, sizeof path, "%s/t.csv", folder);
 	assert_int_equal(batten_table_write(context, &table, path), BATTEN_OK);
 	(void)read_text(path, text, sizeof text);
@@ -42,6 +47,51 @@ static void tables(void **state)
 	assert_int_equal(remove(path), 0);
 	(void)snprintf(path, sizeof path, "%s/t.txt", folder);
 	assert_int_equal(batten_table_write(context, &table, path), BATTEN_USAGE);
+	batten_context_destroy(context);
+	assert_int_equal(rmdir(folder), 0);
+}
+
+/* Text beside numbers, in pieces: what would be read as something else is quoted. */
+static void tables_of_text(void **state)
+{
+	(void)state;
+	char folder[] = "/tmp/batten-hydrostatics-XXXXXX", path[64], text[65536];
+	assert_non_null(mkdtemp(folder));
+	batten_context *context = make_context();
+	const char *columns[] = { "kb_m" }, *names[] = { "row", "reason" };
+	const char *texts[] = { "a", NULL, " b", "said \"no\", twice" };
+	const double values[] = { 1.5, -0.0 };
+	batten_table table = { .name = "t",
+		                   .quadrature = "spline",
+		                   .column_count = 1,
+		                   .row_count = 1,
+		                   .columns = columns,
+		                   .values = values,
+		                   .text_count = 2,
+		                   .text_columns = names,
+		                   .texts = texts };
+	batten_table more = table;
+	more.texts = texts + 2;
+	more.values = values + 1;
+	batten_table_file *file = NULL;
+	for (int json = 0; json < 2; json++) {
+		(void)snprintf(path, sizeof path, "%s/t.%s", folder, json ? "json" : "csv");
+		assert_int_equal(batten_table_open(context, &table, path, &file), BATTEN_OK);
+		assert_int_equal(batten_table_add(file, &more), BATTEN_OK);
+		batten_table_abandon(file);
+		assert_null(fopen(path, "r"));
+		assert_int_equal(batten_table_open(context, &table, path, &file), BATTEN_OK);
+		assert_int_equal(batten_table_add(file, &more), BATTEN_OK);
+		assert_int_equal(batten_table_commit(file), BATTEN_OK);
+		(void)read_text(path, text, sizeof text);
+		assert_int_equal(remove(path), 0);
+		assert_non_null(strstr(text, json ? "{ \"row\": \"a\", \"reason\": null, \"kb_m\": 1.5 },\n"
+		                                    "    { \"row\": \" b\", \"reason\": \"said \\\"no\\\", "
+		                                    "twice\", \"kb_m\": 0 }\n"
+		                                  : "row,reason,kb_m\na,,1.5\n\" b\",\"said \"\"no\"\", "
+		                                    "twice\",-0\n"));
+	}
+	batten_table_abandon(NULL);
 	batten_context_destroy(context);
 	assert_int_equal(rmdir(folder), 0);
 }
@@ -93,6 +143,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(tables),
+		cmocka_unit_test(tables_of_text),
 		cmocka_unit_test(charts),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
