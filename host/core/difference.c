@@ -17,15 +17,26 @@ void difference_weights(const double *at, double w[4])
 	w[3] = 2.0 / (above * (below + above));
 }
 
+difference_quartic difference_quartic_of(const double *at)
+{
+	difference_quartic quartic = { .away = (at[0] - at[-2]) + (at[0] - at[-1]) + (at[0] - at[1]) };
+	for (ptrdiff_t degree = 1; degree < 5; degree++)
+		for (ptrdiff_t first = 0; first + degree < 5; first++)
+			quartic.inverse[degree - 1][first] = 1.0 / (at[first + degree - 2] - at[first - 2]);
+	return quartic;
+}
+
 /* Newton's form: 6 [0 1 2 3] + 6 [0 1 2 3 4] times the sum of the distances from the first four. */
-double difference_third(const double *at, const double *y, ptrdiff_t step)
+double difference_third(const difference_quartic *quartic, const double *y, ptrdiff_t step)
 {
 	double table[5];
 	for (ptrdiff_t i = 0; i < 5; i++)
 		table[i] = y[(i - 2) * step];
-	for (ptrdiff_t degree = 1; degree < 5; degree++)
-		for (ptrdiff_t i = 4; i >= degree; i--)
-			table[i] = (table[i] - table[i - 1]) / (at[i - 2] - at[i - 2 - degree]);
-	const double away = (at[0] - at[-2]) + (at[0] - at[-1]) + (at[0] - at[1]);
-	return 6.0 * (table[3] + away * table[4]);
+	double third = 0.0;
+	for (ptrdiff_t degree = 1; degree < 5; degree++) {
+		for (ptrdiff_t first = 0; first + degree < 5; first++)
+			table[first] = (table[first + 1] - table[first]) * quartic->inverse[degree - 1][first];
+		third = degree == 3 ? table[0] : third;
+	}
+	return 6.0 * (third + quartic->away * table[0]);
 }

@@ -21,12 +21,12 @@ static void reduce(bound *upper, double value, const char *cause)
 }
 
 static batten_status bound_node(batten_context *context, const batten_hull *hull,
-                                const batten_fair_options *options, double distance, size_t node,
-                                fairing_box *box)
+                                const batten_fair_options *options, double half_beam,
+                                double distance, size_t node, fairing_box *box)
 {
 	const double y = hull->y_m[node];
 	bound lower = { 0.0, "0" };
-	bound upper = { FAIRING_HALF_BEAM_LIMIT * batten_hull_half_beam_m(hull), "1.2 half-beams" };
+	bound upper = { FAIRING_HALF_BEAM_LIMIT * half_beam, "1.2 half-beams" };
 	raise(&lower, y - FAIRING_LIMIT_MARGIN * distance, "the distance limit");
 	reduce(&upper, y + FAIRING_LIMIT_MARGIN * distance, "the distance limit");
 	if (options->lower && options->lower->nodes[node] == BATTEN_NODE_GIVEN)
@@ -113,19 +113,21 @@ static batten_status check_table(batten_context *context, const batten_hull *hul
 	return BATTEN_OK;
 }
 
-static batten_status fill(batten_context *context, const batten_hull *hull,
-                          const batten_fair_options *options, const uint8_t *locked,
-                          double distance, fairing_box *box)
+batten_status fairing_box_fill(batten_context *context, const batten_hull *hull,
+                               const batten_fair_options *options, const uint8_t *locked,
+                               double distance, fairing_box *box)
 {
 	const size_t nodes = hull_node_count(hull);
+	const double half_beam = batten_hull_half_beam_m(hull);
+	box->variable_count = 0;
 	batten_status status = check_table(context, hull, options->lower, "lower");
 	if (status == BATTEN_OK)
 		status = check_table(context, hull, options->upper, "upper");
 	for (size_t n = 0; n < nodes && status == BATTEN_OK; n++) {
 		hold(box, hull, n);
 		box->closeness_weight[n] = hull->nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
-		if (is_variable(hull, n) && !locked[n])
-			status = bound_node(context, hull, options, distance, n, box);
+		if (is_variable(hull, n) && !(locked && locked[n]))
+			status = bound_node(context, hull, options, half_beam, distance, n, box);
 		box->variable_count += box->lower_m[n] < box->upper_m[n];
 	}
 	return status;
@@ -142,7 +144,7 @@ batten_status fairing_box_create(batten_context *context, const batten_hull *smo
 	box.closeness_weight = batten_allocate(context, nodes, sizeof(double));
 	batten_status status = BATTEN_MEMORY;
 	if (box.lower_m && box.upper_m && box.closeness_weight)
-		status = fill(context, smoothed, options, locked, distance_m, &box);
+		status = fairing_box_fill(context, smoothed, options, locked, distance_m, &box);
 	if (status != BATTEN_OK) {
 		fairing_box_release(context, &box);
 		return status;

@@ -22,12 +22,18 @@ batten_status fairing_locks_create(batten_context *context, const batten_hull *h
                                    const batten_fair_options *options, uint8_t **out);
 
 /* Variables are the positive offsets and the '?' cells that no lock holds; profile zeros stay. Bounds:
- * 0 <= y <= 1.2 h, |y - smoothed| <= distance, and the lower and upper hulls of the options.
+ * 0 <= y <= 1.2 h, |y - smoothed| <= distance, and the lower and upper hulls of the options. locked may
+ * be NULL.
  * Errors: USAGE (a bound that is not on the table), INPUT (bounds that exclude each other, naming the
  * offset and the two), MEMORY. */
 batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,
                                  const batten_fair_options *options, const uint8_t *locked,
                                  double distance_m, fairing_box *out);
+
+/* The same into arrays that are there. */
+batten_status fairing_box_fill(batten_context *context, const batten_hull *smoothed,
+                               const batten_fair_options *options, const uint8_t *locked,
+                               double distance_m, fairing_box *box);
 
 /* The search that fairs the hull with these weights; borrows hull and box. */
 batten_search_problem fairing_problem(const batten_hull *smoothed, const fairing_box *box,

@@ -93,40 +93,89 @@ size_t lines_piece_end(const batten_hull *hull, bool waterline, size_t line,
 	return points->count - 1;
 }
 
+static void add_piece(lines_sum *sum, size_t count, const double *along_m, const double *value_m)
+{
+	if (count < 3)
+		return;
+	sum->fn_per_m2 += lines_fairness(count, along_m, value_m);
+	sum->interior_count += count - 2;
+	sum->inflections += lines_inflections(count, along_m, value_m);
+}
+
 lines_sum lines_of_points(const batten_hull *hull, bool waterline, size_t line,
                           const hull_line *points)
 {
 	lines_sum sum = { 0 };
 	for (size_t first = 0, next = 0; first < points->count; first = next) {
 		size_t last = lines_piece_end(hull, waterline, line, points, first, &next);
-		size_t count = last - first + 1;
-		if (count < 3)
-			continue;
-		sum.fn_per_m2 += lines_fairness(count, points->along_m + first, points->value_m + first);
-		sum.interior_count += count - 2;
-		sum.inflections += lines_inflections(count, points->along_m + first,
-		                                     points->value_m + first);
+		add_piece(&sum, last - first + 1, points->along_m + first, points->value_m + first);
 	}
 	return sum;
+}
+
+bool lines_are_of_grid(const batten_hull *hull)
+{
+	return hull->layout == HULL_LAYOUT_GRID && hull->end_count == 0 && hull->profile_count == 0 &&
+	       hull->knuckle_count == 0;
+}
+
+/* One line of a hull that is nothing but its grid; along_m and value_m have room for its points. */
+static lines_sum line_of_grid(const batten_hull *hull, bool waterline, size_t line, double *along_m,
+                              double *value_m)
+{
+	const double *at = waterline ? hull->x_m : hull->z_m;
+	const size_t length = waterline ? hull->station_count : hull->waterline_count;
+	const size_t step = waterline ? 1 : hull->station_count;
+	size_t node = waterline ? line * hull->station_count : line;
+	lines_sum sum = { 0 };
+	size_t count = 0;
+	for (size_t i = 0; i < length; i++, node += step) {
+		if (hull->nodes[node] == BATTEN_NODE_GIVEN) {
+			along_m[count] = at[i];
+			value_m[count++] = hull->y_m[node];
+		} else if (hull->nodes[node] == BATTEN_NODE_OUTSIDE) {
+			add_piece(&sum, count, along_m, value_m);
+			count = 0;
+		}
+	}
+	add_piece(&sum, count, along_m, value_m);
+	return sum;
+}
+
+static batten_status line_of_any(const batten_hull *hull, bool waterline, size_t line,
+                                 lines_sum *sum)
+{
+	hull_line points;
+	const batten_status status = hull_line_collect(hull, waterline, line, false, &points);
+	if (status != BATTEN_OK)
+		return status;
+	*sum = lines_of_points(hull, waterline, line, &points);
+	hull_line_release(hull, &points);
+	return BATTEN_OK;
 }
 
 batten_status lines_of_hull(const batten_hull *hull, bool waterlines, lines_sum *out)
 {
 	lines_sum total = { 0 };
-	size_t count = waterlines ? hull->waterline_count : hull->station_count;
-	for (size_t line = 0; line < count; line++) {
-		hull_line points;
-		batten_status status = hull_line_collect(hull, waterlines, line, false, &points);
-		if (status != BATTEN_OK)
-			return status;
-		lines_sum sum = lines_of_points(hull, waterlines, line, &points);
-		hull_line_release(hull, &points);
+	const size_t count = waterlines ? hull->waterline_count : hull->station_count;
+	const size_t length = waterlines ? hull->station_count : hull->waterline_count;
+	const bool plain = lines_are_of_grid(hull);
+	double *room = batten_allocate(hull->context, length, 2 * sizeof *room);
+	batten_status status = room ? BATTEN_OK : BATTEN_MEMORY;
+	for (size_t line = 0; line < count && status == BATTEN_OK; line++) {
+		lines_sum sum = { 0 };
+		if (plain)
+			sum = line_of_grid(hull, waterlines, line, room, room + length);
+		else
+			status = line_of_any(hull, waterlines, line, &sum);
 		total.fn_per_m2 += sum.fn_per_m2;
 		total.interior_count += sum.interior_count;
 		total.inflections += sum.inflections;
 	}
+	batten_release(hull->context, room);
 	if (total.interior_count == 0)
 		total.fn_per_m2 = NAN;
-	*out = total;
-	return BATTEN_OK;
+	if (status == BATTEN_OK)
+		*out = total;
+	return status;
 }

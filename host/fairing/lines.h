@@ -37,6 +37,9 @@ lines_sum lines_of_points(const batten_hull *hull, bool waterline, size_t line,
  * where no line has an interior point. */
 batten_status lines_of_hull(const batten_hull *hull, bool waterlines, lines_sum *out);
 
+/* Whether all points of the hull's lines are nodes of its grid and only empty cells break them. */
+bool lines_are_of_grid(const batten_hull *hull);
+
 /* Last point of the piece of a line that begins at point first, and where the next piece begins:
  * the same point where a knuckle is a point of the line, the next one where it, or an empty cell,
  * lies between two. Pieces end at count - 1. */

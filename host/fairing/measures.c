@@ -1,6 +1,7 @@
 /* Every measure of a hull, by name: hydrostatics, fairness, energies, noise; and how far one hull
  * is from another. */
-#include "batten.h"
+#include "fairing/measures.h"
+
 #include "core/difference.h"
 #include "fairing/lines.h"
 #include "fairing/noise.h"
@@ -62,9 +63,9 @@ static batten_status take_energies(batten_context *context, const batten_hull *h
 		out->energy_mean += mean * mean * area;
 		out->energy_gauss += fabs(grid->gauss_per_m2[i]) * area;
 	}
-	out->energy_mvc_per_m2 = grid_variation_sum(hull, grid);
+	status = grid_variation_sum(context, hull, grid, &out->energy_mvc_per_m2);
 	grid_curvature_destroy(context, grid);
-	return BATTEN_OK;
+	return status;
 }
 
 static batten_status take_fairness(batten_context *context, const batten_hull *hull,
@@ -82,6 +83,17 @@ static batten_status take_fairness(batten_context *context, const batten_hull *h
 	out->fn_sections_per_m2 = sections.fn_per_m2;
 	out->inflections = (double)(waterlines.inflections + sections.inflections);
 	return take_energies(context, hull, out);
+}
+
+batten_status measures_complete(batten_context *context, const batten_hull *hull,
+                                const batten_hydrostatics *form, batten_measures *out)
+{
+	batten_measures made = { 0 };
+	take_form(form, &made);
+	const batten_status status = take_fairness(context, hull, &made);
+	if (status == BATTEN_OK)
+		*out = made;
+	return status;
 }
 
 static batten_status check_options(batten_context *context, const batten_measure_options *options)
@@ -118,12 +130,7 @@ batten_status batten_hull_measure(batten_context *context, const batten_hull *hu
 		return BATTEN_INPUT;
 	if (status != BATTEN_OK)
 		return status;
-	batten_measures made = { 0 };
-	take_form(&body, &made);
-	status = take_fairness(context, hull, &made);
-	if (status == BATTEN_OK)
-		*out = made;
-	return status;
+	return measures_complete(context, hull, &body, out);
 }
 
 static bool same_coordinates(size_t count, const double *a, const double *b)

@@ -33,24 +33,37 @@ static double second_of(const double w[STENCIL_SIZE], const double *y, ptrdiff_t
 	return stencil_second(w[2], w[3], y[-step], y[0], y[step]);
 }
 
-/* The third derivatives of the graph as those of the surface (x, y, z) by u = x and v = z. */
-static surface_third third_of(const batten_hull *hull, size_t waterline, size_t station)
+/* What the differences at a station, or at a waterline, take from the coordinates. */
+typedef struct place {
+	double w[STENCIL_SIZE];
+	difference_quartic quartic;
+} place;
+
+static place *places_along(batten_context *context, const double *at, size_t count)
 {
-	const double *x = hull->x_m + station;
-	const double *z = hull->z_m + waterline;
+	place *places = batten_allocate(context, count, sizeof *places);
+	for (size_t i = REACH; places && i + REACH < count; i++) {
+		difference_weights(at + i, places[i].w);
+		places[i].quartic = difference_quartic_of(at + i);
+	}
+	return places;
+}
+
+/* The third derivatives of the graph as those of the surface (x, y, z) by u = x and v = z. */
+static surface_third third_of(const batten_hull *hull, const place *x, const place *z,
+                              size_t waterline, size_t station)
+{
+	const double *w_x = x->w;
+	const double *w_z = z->w;
 	const ptrdiff_t row = (ptrdiff_t)hull->station_count;
 	const double *y = hull->y_m + (ptrdiff_t)waterline * row + (ptrdiff_t)station;
-	double w_x[STENCIL_SIZE];
-	double w_z[STENCIL_SIZE];
-	difference_weights(x, w_x);
-	difference_weights(z, w_z);
 	return (surface_third){
-		.uuu = { .y = difference_third(x, y, 1) },
+		.uuu = { .y = difference_third(&x->quartic, y, 1) },
 		.uuv = { .y = stencil_first(w_z[0], w_z[1], second_of(w_x, y - row, 1),
 		                            second_of(w_x, y, 1), second_of(w_x, y + row, 1)) },
 		.uvv = { .y = stencil_first(w_x[0], w_x[1], second_of(w_z, y - 1, row),
 		                            second_of(w_z, y, row), second_of(w_z, y + 1, row)) },
-		.vvv = { .y = difference_third(z, y, row) },
+		.vvv = { .y = difference_third(&z->quartic, y, row) },
 	};
 }
 
@@ -65,7 +78,8 @@ static surface_jet jet_of(const grid_curvature *grid, size_t node)
 	};
 }
 
-double grid_variation_sum(const batten_hull *hull, const grid_curvature *grid)
+static double sum_over(const batten_hull *hull, const grid_curvature *grid, const place *along_x,
+                       const place *along_z)
 {
 	double sum = 0.0;
 	bool any = false;
@@ -75,10 +89,23 @@ double grid_variation_sum(const batten_hull *hull, const grid_curvature *grid)
 				continue;
 			const size_t node = j * hull->station_count + i;
 			const surface_jet jet = jet_of(grid, node);
-			const surface_variation found = surface_variation_of(jet, third_of(hull, j, i),
-			                                                     surface_shape_of(jet, 0.0));
-			sum += found.density * grid->area_m2[node];
+			const surface_third third = third_of(hull, &along_x[i], &along_z[j], j, i);
+			sum += surface_variation_of(jet, third, surface_shape_of(jet, 0.0)).density *
+			       grid->area_m2[node];
 			any = true;
 		}
 	return any ? sum : NAN;
+}
+
+batten_status grid_variation_sum(batten_context *context, const batten_hull *hull,
+                                 const grid_curvature *grid, double *out)
+{
+	place *along_x = places_along(context, hull->x_m, hull->station_count);
+	place *along_z = places_along(context, hull->z_m, hull->waterline_count);
+	const bool there = along_x && along_z;
+	if (there)
+		*out = sum_over(hull, grid, along_x, along_z);
+	batten_release(context, along_x);
+	batten_release(context, along_z);
+	return there ? BATTEN_OK : BATTEN_MEMORY;
 }

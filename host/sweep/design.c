@@ -7,23 +7,23 @@
 #include <string.h>
 
 /* The offsets of a design as they are kept; *found false where they are not. */
-static batten_status take_kept(const sweep_database *database, uint64_t id, sweep_design *design,
-                               bool *found)
+static batten_status take_kept(const sweep_database *database, sweep_block *block, bool *found)
 {
+	const batten_hull hull = sweep_block_final(block, database->context, 0);
 	sqlite3_stmt *statement = NULL;
 	batten_status status = database_prepare(
-		database, &statement, "SELECT y_m FROM geometry WHERE id = %lld", (long long)id);
+		database, &statement, "SELECT y_m FROM geometry WHERE id = %lld", (long long)block->first);
 	if (status == BATTEN_OK)
 		status = database_step(database, statement, found);
 	if (status == BATTEN_OK && *found) {
-		const size_t size = hull_node_count(design->varied) * sizeof(double);
+		const size_t size = block->nodes_each * sizeof(double);
 		const void *y = sqlite3_column_blob(statement, 0);
 		if (y && (size_t)sqlite3_column_bytes(statement, 0) == size)
-			memcpy(design->varied->y_m, y, size);
+			memcpy(hull.y_m, y, size);
 		else
 			status = batten_fail(database->context, BATTEN_INPUT,
 			                     "%s: the offsets of design %llu are damaged", database->path,
-			                     (unsigned long long)id);
+			                     (unsigned long long)block->first);
 	}
 	(void)sqlite3_finalize(statement);
 	return status;
@@ -37,15 +37,14 @@ static batten_status make(const sweep_database *database, sweep_machine *machine
 	sweep_block_begin(block, id, 1);
 	batten_status status = sweep_stage_vary(machine, block);
 	if (status == BATTEN_OK && sweep_design_lives(design))
-		status = take_kept(database, id, design, &kept);
+		status = take_kept(database, block, &kept);
 	if (status == BATTEN_OK && sweep_design_lives(design) && !kept && block->plan->fairs)
 		status = sweep_stage_fair(machine, block);
 	if (status == BATTEN_OK && !sweep_design_lives(design))
 		status = batten_fail(database->context, BATTEN_INPUT, "%s: design %llu failed: %s",
 		                     database->path, (unsigned long long)id, design->reason);
-	return status == BATTEN_OK
-	           ? batten_hull_clone(database->context, sweep_design_hull(design), out)
-	           : status;
+	const batten_hull hull = sweep_block_final(block, database->context, 0);
+	return status == BATTEN_OK ? batten_hull_clone(database->context, &hull, out) : status;
 }
 
 batten_status batten_sweep_design(batten_context *context, const char *database_path, uint64_t id,

@@ -1,37 +1,38 @@
 /* Hulls -> numbers, and whether they will do. */
+#include "fairing/measures.h"
+#include "hydrostatics/offsets_tables.h"
 #include "sweep/stages.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MEASURE_PIECE = 8 };
+enum { MEASURE_PIECE = 32 };
 
-static batten_status measure_hull(batten_context *context, const sweep_plan *plan,
-                                  sweep_design *design)
-{
-	batten_measure_options options;
-	batten_measure_options_default(&options);
-	options.quadrature = plan->hydrostatics.quadrature;
-	options.density_t_per_m3 = plan->hydrostatics.density_t_per_m3;
-	batten_measures measures;
-	const batten_status status = batten_hull_measure(context, sweep_design_hull(design), &options,
-	                                                 &measures);
-	if (status == BATTEN_OK)
-		memcpy(design->measures, &measures, sizeof measures);
-	return status;
-}
+/* The block's designs, and those of them that lie on the parent's table: their hydrostatics are worked in
+ * one batch, the draft of the parent after those of the plan. Which way a design goes depends on it alone:
+ * both agree within rounding, not bit for bit. */
+struct measuring {
+	sweep_block *block;
+	size_t batch_count, batch_drafts;
+	size_t *place;              /* of each design in the batch, SIZE_MAX elsewhere */
+	batten_hydrostatics *forms; /* [batch][drafts] */
+};
 
-static batten_status measure_fairing(batten_context *context, sweep_design *design)
+/* ---- fairing ---- */
+
+static batten_status measure_fairing(batten_context *context, const sweep_block *block, size_t i)
 {
+	sweep_design *design = &block->designs[i];
 	double *out = design->measures + BATTEN_MEASURE_COUNT;
-	for (size_t i = 0; i < SWEEP_FAIRING_COUNT; i++)
-		out[i] = NAN;
-	if (!design->faired)
+	for (size_t k = 0; k < SWEEP_FAIRING_COUNT; k++)
+		out[k] = NAN;
+	if (!block->plan->fairs)
 		return BATTEN_OK;
+	const batten_hull varied = sweep_block_varied(block, context, i);
+	const batten_hull faired = sweep_block_final(block, context, i);
 	batten_closeness closeness;
-	const batten_status status = batten_hull_closeness(context, design->faired, design->varied,
-	                                                   &closeness);
+	const batten_status status = batten_hull_closeness(context, &faired, &varied, &closeness);
 	if (status != BATTEN_OK)
 		return status;
 	out[SWEEP_cn_pct] = closeness.cn_pct;
@@ -44,6 +45,8 @@ static batten_status measure_fairing(batten_context *context, sweep_design *desi
 	out[SWEEP_w2_over_w1] = design->fairing.w2_over_w1;
 	return BATTEN_OK;
 }
+
+/* ---- judgement ---- */
 
 /* The first constraint that a design does not keep rejects it. */
 static void judge(const sweep_plan *plan, const double *parameters, sweep_design *design)
@@ -71,17 +74,53 @@ static void judge(const sweep_plan *plan, const double *parameters, sweep_design
 	}
 }
 
-static batten_status measure(batten_context *context, sweep_block *block, size_t i)
+/* ---- one design ---- */
+
+static batten_hydrostatics *drafts_of(const sweep_block *block, size_t i)
 {
+	return block->hydrostatics + i * block->plan->draft_count;
+}
+
+/* Hydrostatics are there already. */
+static batten_status measure_batched(batten_context *context, const struct measuring *measuring,
+                                     const batten_hull *hull, size_t i, batten_measures *out)
+{
+	const size_t drafts = measuring->batch_drafts - 1;
+	const batten_hydrostatics *forms = measuring->forms +
+	                                   measuring->place[i] * measuring->batch_drafts;
+	memcpy(drafts_of(measuring->block, i), forms, drafts * sizeof *forms);
+	return measures_complete(context, hull, &forms[drafts], out);
+}
+
+static batten_status measure_alone(batten_context *context, const struct measuring *measuring,
+                                   const batten_hull *hull, size_t i, batten_measures *out)
+{
+	const sweep_plan *plan = measuring->block->plan;
+	batten_measure_options options;
+	batten_measure_options_default(&options);
+	options.quadrature = plan->hydrostatics.quadrature;
+	options.density_t_per_m3 = plan->hydrostatics.density_t_per_m3;
+	batten_status status = batten_hull_measure(context, hull, &options, out);
+	if (status == BATTEN_OK && plan->draft_count > 0)
+		status = batten_hull_hydrostatics(context, hull, &plan->hydrostatics, plan->draft_count,
+		                                  plan->drafts_m, drafts_of(measuring->block, i));
+	return status;
+}
+
+static batten_status measure(batten_context *context, const struct measuring *measuring, size_t i)
+{
+	const sweep_block *block = measuring->block;
 	const sweep_plan *plan = block->plan;
 	sweep_design *design = &block->designs[i];
-	batten_status status = measure_hull(context, plan, design);
-	if (status == BATTEN_OK)
-		status = measure_fairing(context, design);
-	if (status == BATTEN_OK && plan->draft_count > 0)
-		status = batten_hull_hydrostatics(context, sweep_design_hull(design), &plan->hydrostatics,
-		                                  plan->draft_count, plan->drafts_m,
-		                                  block->hydrostatics + i * plan->draft_count);
+	const batten_hull hull = sweep_block_final(block, context, i);
+	batten_measures measures;
+	batten_status status = measuring->place[i] == SIZE_MAX
+	                           ? measure_alone(context, measuring, &hull, i, &measures)
+	                           : measure_batched(context, measuring, &hull, i, &measures);
+	if (status == BATTEN_OK) {
+		memcpy(design->measures, &measures, sizeof measures);
+		status = measure_fairing(context, block, i);
+	}
 	if (status == BATTEN_MEMORY || status == BATTEN_INTERNAL)
 		return status;
 	if (status != BATTEN_OK) {
@@ -95,15 +134,94 @@ static batten_status measure(batten_context *context, sweep_block *block, size_t
 
 static batten_status measure_piece(batten_context *context, void *user, size_t first, size_t count)
 {
-	sweep_block *block = user;
+	const struct measuring *measuring = user;
 	batten_status status = BATTEN_OK;
 	for (size_t i = first; i < first + count && status == BATTEN_OK; i++)
-		if (sweep_design_lives(&block->designs[i]))
-			status = measure(context, block, i);
+		if (sweep_design_lives(&measuring->block->designs[i]))
+			status = measure(context, measuring, i);
+	return status;
+}
+
+/* ---- hydrostatics of many ---- */
+
+/* Whether a batch can take hulls on the parent's table at all these drafts. */
+static bool fits_batch(const sweep_plan *plan)
+{
+	const batten_hull *parent = plan->parent;
+	return parent->draft_m > parent->z_m[0] &&
+	       parent->draft_m <= parent->z_m[parent->waterline_count - 1] &&
+	       offsets_tables_fit(parent, plan->hydrostatics.quadrature, plan->draft_count + 1);
+}
+
+static size_t list_batch(const sweep_block *block, size_t *place)
+{
+	const bool fits = fits_batch(block->plan);
+	size_t count = 0;
+	for (size_t i = 0; i < block->count; i++) {
+		const sweep_design *design = &block->designs[i];
+		place[i] = fits && !design->form && sweep_design_lives(design) ? count++ : SIZE_MAX;
+	}
+	return count;
+}
+
+/* The half-breadths of the batch, side by side. */
+static void gather(const struct measuring *measuring, double *y_m, uint8_t *nodes)
+{
+	const sweep_block *block = measuring->block;
+	const size_t each = block->nodes_each;
+	const double *from = block->faired_y_m ? block->faired_y_m : block->varied_y_m;
+	for (size_t i = 0; i < block->count; i++) {
+		const size_t place = measuring->place[i];
+		if (place == SIZE_MAX)
+			continue;
+		memcpy(y_m + place * each, from + i * each, each * sizeof *y_m);
+		memcpy(nodes + place * each, block->nodes + i * each, each);
+	}
+}
+
+static batten_status run_batch(sweep_machine *machine, const struct measuring *measuring)
+{
+	const sweep_block *block = measuring->block;
+	const sweep_plan *plan = block->plan;
+	const size_t each = block->nodes_each;
+	double drafts[PLAN_DRAFTS_MOST + 1];
+	memcpy(drafts, plan->drafts_m, plan->draft_count * sizeof *drafts);
+	drafts[plan->draft_count] = plan->parent->draft_m;
+	double *y_m = batten_allocate(machine->context, measuring->batch_count, each * sizeof *y_m);
+	uint8_t *nodes = batten_allocate(machine->context, measuring->batch_count, each);
+	batten_batch_options batch;
+	batten_batch_options_default(&batch);
+	batch.device = sweep_machine_device_f64(machine);
+	batten_status status = y_m && nodes ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK) {
+		gather(measuring, y_m, nodes);
+		status = batten_hull_hydrostatics_batch(
+			machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
+			y_m, nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
+	}
+	batten_release(machine->context, y_m);
+	batten_release(machine->context, nodes);
 	return status;
 }
 
 batten_status sweep_stage_measure(sweep_machine *machine, sweep_block *block)
 {
-	return sweep_crew_run(&machine->crew, block->count, MEASURE_PIECE, measure_piece, block);
+	batten_context *context = machine->context;
+	struct measuring measuring = { .block = block, .batch_drafts = block->plan->draft_count + 1 };
+	measuring.place = batten_allocate(context, block->count, sizeof *measuring.place);
+	batten_status status = measuring.place ? BATTEN_OK : BATTEN_MEMORY;
+	if (status == BATTEN_OK) {
+		measuring.batch_count = list_batch(block, measuring.place);
+		measuring.forms = batten_allocate(context, measuring.batch_count,
+		                                  measuring.batch_drafts * sizeof *measuring.forms);
+		status = measuring.forms ? BATTEN_OK : BATTEN_MEMORY;
+	}
+	if (status == BATTEN_OK && measuring.batch_count > 0)
+		status = run_batch(machine, &measuring);
+	if (status == BATTEN_OK)
+		status = sweep_crew_run(&machine->crew, block->count, MEASURE_PIECE, measure_piece,
+		                        &measuring);
+	batten_release(context, measuring.place);
+	batten_release(context, measuring.forms);
+	return status;
 }

@@ -13,11 +13,14 @@ typedef struct sweep_machine {
 	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
 } sweep_machine;
 
+/* What runs batches in f64: the device, or the C path where it has none. */
+int sweep_machine_device_f64(const sweep_machine *machine);
+
 /* Varies the parent: designs get their hull, or VARY_FAILED. Errors: MEMORY. */
 batten_status sweep_stage_vary(sweep_machine *machine, sweep_block *block);
 
-/* Fairs every variant by its offsets: designs get their faired hull and search, or FAIR_FAILED or
- * NOT_CONVERGED. Errors: DEVICE, KERNEL, MEMORY. */
+/* Fairs every variant by its offsets: designs get faired half-breadths and their search, or
+ * FAIR_FAILED or NOT_CONVERGED. Errors: DEVICE, KERNEL, MEMORY. */
 batten_status sweep_stage_fair(sweep_machine *machine, sweep_block *block);
 
 /* Measures what came out and judges it: MEASURE_FAILED, REJECTED. Errors: MEMORY. */

@@ -111,24 +111,23 @@ static void bind_coordinates(sqlite3_stmt *statement, int column, const double *
 		bind_numbers(statement, column, own, count);
 }
 
-static batten_status write_geometry(const sweep_store *store, uint64_t id,
-                                    const sweep_design *design)
+static batten_status write_geometry(const sweep_store *store, const sweep_block *block, size_t i)
 {
 	sqlite3_stmt *statement = store->geometry;
 	const batten_hull *parent = store->plan->parent;
-	const batten_hull *hull = sweep_design_hull(design);
-	const size_t nodes = hull_node_count(hull);
-	(void)sqlite3_bind_int64(statement, 1, (sqlite3_int64)id);
-	(void)sqlite3_bind_double(statement, 2, hull->lbp_m);
-	(void)sqlite3_bind_double(statement, 3, hull->draft_m);
-	bind_coordinates(statement, 4, hull->x_m, parent->x_m, hull->station_count);
-	bind_coordinates(statement, 5, hull->z_m, parent->z_m, hull->waterline_count);
-	bind_numbers(statement, 6, hull->y_m, nodes);
-	if (design->faired)
-		bind_numbers(statement, 7, design->varied->y_m, nodes);
+	const batten_hull hull = sweep_block_final(block, store->database.context, i);
+	const size_t nodes = block->nodes_each;
+	(void)sqlite3_bind_int64(statement, 1, (sqlite3_int64)(block->first + i));
+	(void)sqlite3_bind_double(statement, 2, hull.lbp_m);
+	(void)sqlite3_bind_double(statement, 3, hull.draft_m);
+	bind_coordinates(statement, 4, hull.x_m, parent->x_m, hull.station_count);
+	bind_coordinates(statement, 5, hull.z_m, parent->z_m, hull.waterline_count);
+	bind_numbers(statement, 6, hull.y_m, nodes);
+	if (store->plan->fairs)
+		bind_numbers(statement, 7, block->varied_y_m + i * nodes, nodes);
 	else
 		(void)sqlite3_bind_null(statement, 7);
-	(void)sqlite3_bind_blob64(statement, 8, hull->nodes, nodes, SQLITE_STATIC);
+	(void)sqlite3_bind_blob64(statement, 8, hull.nodes, nodes, SQLITE_STATIC);
 	return database_do(&store->database, statement);
 }
 
@@ -171,7 +170,7 @@ static batten_status write_design(const sweep_store *store, const sweep_block *b
 		status = write_numbers(store, store->hydrostatics, id, (const double *)row,
 		                       BATTEN_HYDROSTATICS_COUNT);
 	}
-	return status == BATTEN_OK && design->kept ? write_geometry(store, id, design) : status;
+	return status == BATTEN_OK && design->kept ? write_geometry(store, block, i) : status;
 }
 
 batten_status sweep_store_write(sweep_store *store, sweep_block *block)
