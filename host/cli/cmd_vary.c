@@ -2,7 +2,7 @@
 #include "cli.h"
 
 #include "json_out.h"
-#include "vary_options.h"
+#include "vary_table.h"
 
 #include <math.h>
 #include <string.h>
@@ -136,6 +136,8 @@ static batten_status read_hulls(struct job *job)
 static batten_status make(struct job *job)
 {
 	batten_status status = read_hulls(job);
+	if (status == BATTEN_OK && job->request.rows)
+		return vary_table_make(job->context, &job->request, job->parent);
 	if (status == BATTEN_OK)
 		status = batten_hull_measure(job->context, job->parent, NULL, &job->before);
 	const vary_request *request = &job->request;

@@ -6,7 +6,7 @@
 
 static const cli_command command = {
 	.name = "vary",
-	.usage = "HULL.csv --method METHOD --out FILE.csv [OPTION ...]",
+	.usage = "HULL.csv --method METHOD [--rows ROWS.csv] --out FILE.csv [OPTION ...]",
 	.summary = "makes a variant of a parent hull",
 	.example =
 		"  batten vary data/hulls/bsra_trawler.csv --method lackenby --dcp 5 --dlcb 2 \\\n"
@@ -19,6 +19,8 @@ static const cli_command command = {
 		"    --amount 0.1 --out risen.csv\n"
 		"  batten vary data/hulls/bsra_trawler.csv --method free-form \\\n"
 		"    --lattice data/lattices/trawler_shoulder.json --out shoulder.csv\n"
+		"  batten vary data/hulls/bsra_trawler.csv --method lackenby --rows data/examples/trawler-rows.csv \\\n"
+		"    --drafts 2.515,2,1.5 --out variants.csv\n"
 		"  batten vary data/hulls/bsra_trawler.csv --solve volume_m3=255,lcb_pct_lbp_fwd=-1,cb=0.53 \\\n"
 		"    --by lackenby.dcp,lackenby.dlcb,affine.y --out solved.csv\n",
 	.notes =
@@ -40,14 +42,17 @@ static const cli_command command = {
 		"half-beam, part of the draft), u-ness (middle of the sections lowered, part of the draft),\n"
 		"v-ness (narrower towards the keel) and flare (wider to the fore and upwards), both parts of\n"
 		"the half-breadth. A lattice is JSON (data/README.md).\n"
+		"--rows makes a variant a row and writes one table: row, status, reason, what was asked and got,\n"
+		"hydrostatics at every draft. ROWS.csv begins with names: id (text, if first), and numbers of\n"
+		"the method as above; affine takes x, y, z, three-body the targets, average weight (weight1, ...),\n"
+		"stretch the points as names (0, 0.5, 1) and where they go, free-form lattice (a file). Other\n"
+		"options hold for all rows; an empty cell takes them too. Rows that fail say why and stop no\n"
+		"other; the exit code is then 1.\n"
 		"--solve meets measures of form (volume_m3, cb, cp, cm, cwp, lcb_pct_lbp_fwd, lcf_pct_lbp_fwd,\n"
 		"beam_wl_m, draft_m, lbp_m, ...) by as many parameters of methods: swing.dlcb,\n"
 		"one-minus-prismatic.dcp .dlcb, lackenby.dcp .dlcb .dp-fore .dp-aft, moor.dcb .dlcb .dcwp .dlcf,\n"
 		"affine.x .y .z, nonlinear.PRESET; ranges as lackenby.dcp=-10:10.\n",
 };
-
-/* Which methods take an option, a bit each. */
-#define TAKES(symbol) (1u << BATTEN_VARY_##symbol)
 
 struct owned {
 	const char *name;
@@ -57,29 +62,28 @@ struct owned {
 
 static batten_status check_owned(const vary_request *request)
 {
-	const unsigned halves = TAKES(ONE_MINUS_PRISMATIC) | TAKES(LACKENBY);
-	const unsigned moved = halves | TAKES(SWING) | TAKES(MOOR);
+	const unsigned halves = VARY_HALVES, moved = VARY_MOVED;
 	const struct owned options[] = {
 		{ "dcp", !isnan(request->dcp), halves },
-		{ "dcb", !isnan(request->dcb), TAKES(MOOR) },
+		{ "dcb", !isnan(request->dcb), VARY_TAKES(MOOR) },
 		{ "dlcb", !isnan(request->dlcb), moved },
-		{ "dcwp", !isnan(request->dcwp), TAKES(MOOR) },
-		{ "dlcf", !isnan(request->dlcf), TAKES(MOOR) },
-		{ "dp-fore", !isnan(request->dp_fore), TAKES(LACKENBY) },
-		{ "dp-aft", !isnan(request->dp_aft), TAKES(LACKENBY) },
-		{ "lcb-used", !isnan(request->lcb_used), halves | TAKES(MOOR) },
-		{ "lcf-used", !isnan(request->lcf_used), TAKES(MOOR) },
-		{ "with", request->with, TAKES(AVERAGE) },
-		{ "weight", request->weight, TAKES(AVERAGE) },
-		{ "lbd", request->lbd, TAKES(AFFINE) },
-		{ "targets", request->targets, TAKES(THREE_BODY) },
-		{ "middle", request->middle, TAKES(THREE_BODY) },
-		{ "move", request->move, TAKES(STRETCH) },
-		{ "preset", request->preset, TAKES(NONLINEAR) },
-		{ "amount", !isnan(request->amount), TAKES(NONLINEAR) },
-		{ "lattice", request->lattice, TAKES(FREE_FORM) },
+		{ "dcwp", !isnan(request->dcwp), VARY_TAKES(MOOR) },
+		{ "dlcf", !isnan(request->dlcf), VARY_TAKES(MOOR) },
+		{ "dp-fore", !isnan(request->dp_fore), VARY_TAKES(LACKENBY) },
+		{ "dp-aft", !isnan(request->dp_aft), VARY_TAKES(LACKENBY) },
+		{ "lcb-used", !isnan(request->lcb_used), halves | VARY_TAKES(MOOR) },
+		{ "lcf-used", !isnan(request->lcf_used), VARY_TAKES(MOOR) },
+		{ "with", request->with, VARY_TAKES(AVERAGE) },
+		{ "weight", request->weight, VARY_TAKES(AVERAGE) },
+		{ "lbd", request->lbd, VARY_TAKES(AFFINE) },
+		{ "targets", request->targets, VARY_TAKES(THREE_BODY) },
+		{ "middle", request->middle, VARY_TAKES(THREE_BODY) },
+		{ "move", request->move, VARY_TAKES(STRETCH) },
+		{ "preset", request->preset, VARY_TAKES(NONLINEAR) },
+		{ "amount", !isnan(request->amount), VARY_TAKES(NONLINEAR) },
+		{ "lattice", request->lattice, VARY_TAKES(FREE_FORM) },
 		{ "thesis", request->thesis, moved },
-		{ "first-pass", request->first_pass, moved | TAKES(THREE_BODY) },
+		{ "first-pass", request->first_pass, moved | VARY_TAKES(THREE_BODY) },
 	};
 	for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
 		if (options[i].given && !(options[i].takers & (1u << request->options.method)))
@@ -101,6 +105,23 @@ static batten_status read_method(vary_request *request)
 	                 "--method: found '%s', expected swing, one-minus-prismatic, lackenby, moor, "
 	                 "average, affine, three-body, stretch, nonlinear or free-form",
 	                 request->method);
+}
+
+/* What belongs to rows. */
+static batten_status check_rows(const vary_request *request)
+{
+	const struct {
+		const char *name;
+		bool given;
+	} options[] = {
+		{ "drafts", request->drafts },
+		{ "hulls", request->hulls },
+		{ "device", request->device != BATTEN_DEVICE_AUTO },
+	};
+	for (size_t i = 0; i < sizeof options / sizeof options[0] && !request->rows; i++)
+		if (options[i].given)
+			return cli_usage("vary", "--%s: of --rows only", options[i].name);
+	return BATTEN_OK;
 }
 
 static void take_number(double given, double *option)
@@ -135,7 +156,8 @@ static batten_status read_values(vary_request *request)
 	case BATTEN_VARY_NONLINEAR:
 		return vary_read_preset(request);
 	case BATTEN_VARY_FREE_FORM:
-		return request->lattice ? BATTEN_OK : cli_usage("vary", "--lattice FILE was expected");
+		return request->lattice || request->rows ? BATTEN_OK
+		                                         : cli_usage("vary", "--lattice FILE was expected");
 	default:
 		return BATTEN_OK;
 	}
@@ -181,6 +203,13 @@ static batten_status parse(int argc, char **argv, vary_request *request, size_t 
 		{ "solve", CLI_TEXT, &request->solve, "NAME=VALUE,...",
 		  "measures to be met, in place of --method" },
 		{ "by", CLI_TEXT, &request->by, "PARAMETER,...", "what may change, as many" },
+		{ "rows", CLI_TEXT, &request->rows, "ROWS.csv",
+		  "many variants, a row each; --out is a table" },
+		{ "drafts", CLI_TEXT, &request->drafts, "T[,T...]",
+		  "of the table, in metres (each variant's own)" },
+		{ "hulls", CLI_TEXT, &request->hulls, "DIR", "each variant too, as DIR/ROW.csv" },
+		{ "device", CLI_DEVICE, &request->device, "D",
+		  "of --rows: auto (default), reference, index" },
 		{ "first-pass", CLI_FLAG, &request->first_pass, NULL, "one pass, no iteration" },
 		{ "thesis", CLI_FLAG, &request->thesis, NULL,
 		  "the thesis's procedure: 21 sections, areas from six waterlines" },
@@ -201,7 +230,8 @@ batten_status vary_request_read(int argc, char **argv, vary_request *request, bo
 		                       .dp_aft = NAN,
 		                       .lcb_used = NAN,
 		                       .lcf_used = NAN,
-		                       .amount = NAN };
+		                       .amount = NAN,
+		                       .device = BATTEN_DEVICE_AUTO };
 	batten_vary_options_default(&request->options);
 	size_t count = 0;
 	batten_status status = parse(argc, argv, request, &count, done);
@@ -209,12 +239,16 @@ batten_status vary_request_read(int argc, char **argv, vary_request *request, bo
 		return status;
 	if (count != 1)
 		return cli_usage("vary", "an offsets file was expected");
-	if (request->solve || request->by)
+	status = check_rows(request);
+	if (status == BATTEN_OK && (request->solve || request->by))
 		return vary_read_solve(request);
-	status = read_method(request);
+	if (status == BATTEN_OK)
+		status = read_method(request);
 	if (status == BATTEN_OK && !request->out)
 		status = cli_usage("vary", "--out FILE.csv was expected");
 	if (status == BATTEN_OK)
 		status = check_owned(request);
+	if (status == BATTEN_OK && request->drafts)
+		status = vary_read_drafts(request);
 	return status == BATTEN_OK ? read_values(request) : status;
 }

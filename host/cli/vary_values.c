@@ -32,6 +32,8 @@ static size_t read_numbers(const char *text, double *out, size_t most)
 batten_status vary_read_lbd(vary_request *request)
 {
 	double factors[3];
+	if (!request->lbd && request->rows)
+		return BATTEN_OK;
 	if (!request->lbd || read_numbers(request->lbd, factors, 3) != 3)
 		return cli_usage("vary",
 		                 "--lbd: found '%s', expected three factors of length, breadth, "
@@ -45,7 +47,7 @@ batten_status vary_read_lbd(vary_request *request)
 
 batten_status vary_read_average(vary_request *request)
 {
-	if (!request->with || !request->weight)
+	if (!request->with || (!request->weight && !request->rows))
 		return cli_usage("vary", "average expects --with FILE[,FILE ...] and --weight W[,W ...]");
 	const size_t length = strlen(request->with);
 	if (length >= sizeof request->paths)
@@ -57,7 +59,9 @@ batten_status vary_read_average(vary_request *request)
 		if (path)
 			*path++ = '\0';
 	}
-	const size_t weights = read_numbers(request->weight, request->weights, VARY_LIST_MOST);
+	const size_t weights = request->weight
+	                           ? read_numbers(request->weight, request->weights, VARY_LIST_MOST)
+	                           : request->other_count;
 	if (weights != request->other_count)
 		return cli_usage("vary", "--weight: found '%s', expected %zu number%s, one for each hull",
 		                 request->weight, request->other_count,
@@ -100,6 +104,8 @@ batten_status vary_read_targets(vary_request *request)
 batten_status vary_read_move(vary_request *request)
 {
 	size_t count = 0;
+	if (!request->move && request->rows)
+		return BATTEN_OK;
 	const char *text = request->move ? request->move : "";
 	bool good = *text != '\0';
 	for (; good && *text && count < VARY_LIST_MOST; count++) {
@@ -131,11 +137,23 @@ batten_status vary_read_preset(vary_request *request)
 			"--preset: found '%s', expected bilge-radius, rise-of-floor, u-ness, v-ness "
 			"or flare",
 			request->preset ? request->preset : "");
-	if (isnan(request->amount))
+	if (isnan(request->amount) && !request->rows)
 		return cli_usage("vary", "--amount was expected");
 	request->options.preset = (batten_vary_preset)i;
-	request->options.amount = request->amount;
+	request->options.amount = isnan(request->amount) ? 0 : request->amount;
 	return BATTEN_OK;
+}
+
+batten_status vary_read_drafts(vary_request *request)
+{
+	request->draft_count = read_numbers(request->drafts, request->drafts_m, VARY_DRAFTS_MOST);
+	for (size_t i = 0; i < request->draft_count; i++)
+		if (!(request->drafts_m[i] > 0))
+			request->draft_count = 0;
+	return request->draft_count > 0
+	           ? BATTEN_OK
+	           : cli_usage("vary", "--drafts: found '%s', expected 1 to %d drafts above 0",
+	                       request->drafts, VARY_DRAFTS_MOST);
 }
 
 /* Cuts a copy of a list at its commas. The number of parts, 0 where one is empty or there are too many. */

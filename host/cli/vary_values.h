@@ -10,6 +10,7 @@ batten_status vary_read_average(vary_request *request);
 batten_status vary_read_targets(vary_request *request); /* and the middle body */
 batten_status vary_read_move(vary_request *request);
 batten_status vary_read_preset(vary_request *request);
+batten_status vary_read_drafts(vary_request *request);
 batten_status vary_read_solve(vary_request *request);
 
 #endif
