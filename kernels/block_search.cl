@@ -14,14 +14,14 @@
 #include "shared/block_lanes.h"
 #include "shared/dialect.h"
 
-/* stencils: STENCIL_SIZE a line, then a node of a line. inputs, settings, y, outcomes: as block_memory
+/* stencils: STENCIL_SIZE a line, then a node of a line. inputs, settings, outcomes: as block_memory
  * has them. Group g works searches g * share up to count; turns[g]: how many iterations its lanes went
  * through. room: per group BLOCK_STATE_COUNT arrays and (local size + 2) lines of probes. sums:
  * BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
 kernel void block_search(int lines, int length, int iteration_limit, int count, int share,
-                         global const scalar *stencils, global const scalar *inputs,
-                         global const scalar *settings, global scalar *y, global scalar *outcomes,
-                         global int *turns, STATE real *room, local real *sums, local real *lanes)
+                         global const scalar *stencils, global scalar *inputs,
+                         global const scalar *settings, global scalar *outcomes, global int *turns,
+                         STATE real *room, local real *sums, local real *lanes)
 {
 	const int group = (int)get_group_id(0);
 	block_state s;
@@ -42,7 +42,6 @@ kernel void block_search(int lines, int length, int iteration_limit, int count, 
 	block_memory m;
 	m.inputs = inputs;
 	m.settings = settings;
-	m.y = y;
 	m.outcomes = outcomes;
 	m.lanes = lanes;
 	block_queue q;

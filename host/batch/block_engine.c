@@ -10,7 +10,7 @@
 
 /* Most bytes of packed searches in one launch, searches a lane of it, and groups a compute unit: lanes
  * that come free take the next search, so the more of them, the less do lanes stand idle. */
-enum { BLOCK_BYTES = 32 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
+enum { BLOCK_BYTES = 8 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
 
 /* Numbers of a group's state in one lane. */
 static size_t state_numbers(const search_plan *plan, size_t work_group)
@@ -60,7 +60,7 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 {
 	const block_lines_shape shape = block_lines_of(plan);
 	const size_t lanes = engine->recipe.lanes;
-	const size_t search_bytes = (BLOCK_INPUT_COUNT + 1) * shape.lines * shape.length *
+	const size_t search_bytes = BLOCK_INPUT_COUNT * shape.lines * shape.length *
 	                            search_scalar_size(plan);
 	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	size_t searches = units_of(engine) * lanes * SEARCHES_A_LANE;
@@ -74,18 +74,20 @@ typedef struct block {
 	const search_plan *plan;
 	size_t count, share, groups;
 	size_t number, nodes; /* bytes of a number; numbers of an array */
-	void *stencils, *inputs, *settings, *y, *outcomes;
+	size_t input_bytes;
+	bool direct; /* the device works in the host's memory */
+	void *stencils, *inputs, *settings, *outcomes;
 	int32_t *turns;
-	device_buffer *stencils_on, *inputs_on, *settings_on, *y_on, *outcomes_on, *turns_on, *state_on;
+	device_buffer *stencils_on, *inputs_on, *settings_on, *outcomes_on, *turns_on, *state_on;
 } block;
 
 static void block_release(batch_engine *engine, block *b)
 {
-	device_buffer *buffers[] = { b->stencils_on, b->inputs_on, b->settings_on, b->y_on,
+	device_buffer *buffers[] = { b->stencils_on, b->inputs_on, b->settings_on,
 		                         b->outcomes_on, b->turns_on,  b->state_on };
 	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
 		device_buffer_destroy(buffers[i]);
-	void *memory[] = { b->stencils, b->inputs, b->settings, b->y, b->outcomes, b->turns };
+	void *memory[] = { b->stencils, b->settings, b->outcomes, b->turns };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(engine->context, memory[i]);
 }
@@ -102,22 +104,21 @@ static batten_status block_allocate(batch_engine *engine, block *b)
 	b->share = ((b->count + units - 1) / units + lanes - 1) / lanes * lanes;
 	b->groups = (b->count + b->share - 1) / b->share;
 	b->stencils = batten_allocate(context, block_stencil_count(b->plan), b->number);
-	b->inputs = batten_allocate(context, b->count * BLOCK_INPUT_COUNT, b->nodes * b->number);
+	b->input_bytes = BLOCK_INPUT_COUNT * b->nodes * b->number;
+	b->direct = batch_engine_device(engine)->is_cpu;
+	b->inputs = batch_engine_memory(engine, b->count, b->input_bytes);
 	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
-	b->y = batten_allocate(context, b->count, b->nodes * b->number);
 	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);
 	b->turns = batten_allocate(context, b->groups, sizeof *b->turns);
-	return b->stencils && b->inputs && b->settings && b->y && b->outcomes && b->turns
-	           ? BATTEN_OK
-	           : BATTEN_MEMORY;
+	return b->stencils && b->inputs && b->settings && b->outcomes && b->turns ? BATTEN_OK
+	                                                                          : BATTEN_MEMORY;
 }
 
 static void block_fill(const batten_search_problem *problems, const size_t *which, block *b)
 {
 	block_pack_stencils(b->plan, b->stencils);
 	for (size_t i = 0; i < b->count; i++)
-		block_pack(b->plan, &problems[which[i]],
-		           (char *)b->inputs + i * BLOCK_INPUT_COUNT * b->nodes * b->number,
+		block_pack(b->plan, &problems[which[i]], (char *)b->inputs + i * b->input_bytes,
 		           (char *)b->settings + i * BLOCK_SETTING_COUNT * b->number);
 }
 
@@ -136,9 +137,8 @@ static batten_status block_upload(batch_engine *engine, block *b)
 		const void *from;
 	} uploads[] = {
 		{ &b->stencils_on, block_stencil_count(b->plan) * b->number, b->stencils },
-		{ &b->inputs_on, b->count * BLOCK_INPUT_COUNT * b->nodes * b->number, b->inputs },
+		{ &b->inputs_on, b->direct ? 0 : b->count * b->input_bytes, b->inputs },
 		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
-		{ &b->y_on, b->count * b->nodes * b->number, NULL },
 		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
 		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
 		{ &b->state_on, is_global(engine) ? state : 0, NULL },
@@ -148,6 +148,9 @@ static batten_status block_upload(batch_engine *engine, block *b)
 		if (uploads[i].size > 0)
 			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
 			                              uploads[i].buffer);
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(engine->session, b->count * b->input_bytes, b->inputs,
+		                            &b->inputs_on);
 	return status;
 }
 
@@ -168,7 +171,6 @@ static batten_status block_launch(batch_engine *engine, block *b)
 		{ .buffer = b->stencils_on },
 		{ .buffer = b->inputs_on },
 		{ .buffer = b->settings_on },
-		{ .buffer = b->y_on },
 		{ .buffer = b->outcomes_on },
 		{ .buffer = b->turns_on },
 		{ .buffer = b->state_on,
@@ -179,7 +181,8 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	batten_status status = device_launch(engine->session, engine->kernel, arguments,
 	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
 	if (status == BATTEN_OK)
-		status = device_buffer_read(b->y_on, b->count * b->nodes * b->number, b->y);
+		status = b->direct ? device_buffer_settle(b->inputs_on)
+		                   : device_buffer_read(b->inputs_on, b->count * b->input_bytes, b->inputs);
 	if (status == BATTEN_OK)
 		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,
 		                            b->outcomes);
@@ -204,7 +207,7 @@ batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
 			status = batch_engine_fail(engine, status);
 	}
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
-		block_unpack(plan, &problems[which[i]], (char *)b.y + i * b.nodes * b.number,
+		block_unpack(plan, &problems[which[i]], (char *)b.inputs + i * b.input_bytes,
 		             (char *)b.outcomes + i * BLOCK_OUTCOME_COUNT * b.number,
 		             y_m + which[i] * b.nodes, &results[which[i]]);
 	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)

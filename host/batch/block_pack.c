@@ -18,14 +18,16 @@ block_lines_shape block_lines_of(const search_plan *plan)
 	return shape;
 }
 
-static void put_all(const search_plan *plan, void *numbers, size_t at, const double *values,
-                    size_t count)
+/* Values to every `step`th number from `at` on. */
+static void put_apart(const search_plan *plan, void *numbers, size_t at, size_t step,
+                      const double *values, size_t count)
 {
-	for (size_t n = 0; n < count; n++)
-		if (plan->options.precision == BATTEN_F64)
-			((double *)numbers)[at + n] = values[n];
-		else
-			((float *)numbers)[at + n] = (float)values[n];
+	if (plan->options.precision == BATTEN_F64)
+		for (size_t n = 0; n < count; n++)
+			((double *)numbers)[at + n * step] = values[n];
+	else
+		for (size_t n = 0; n < count; n++)
+			((float *)numbers)[at + n * step] = (float)values[n];
 }
 
 size_t block_stencil_count(const search_plan *plan)
@@ -38,29 +40,46 @@ void block_pack_stencils(const search_plan *plan, void *stencils)
 	const bool along_x = block_lines_of(plan).along_x;
 	const size_t x = plan->station_count * STENCIL_SIZE;
 	const size_t z = plan->waterline_count * STENCIL_SIZE;
-	put_all(plan, stencils, along_x ? z : 0, plan->stencil_x, x);
-	put_all(plan, stencils, along_x ? 0 : x, plan->stencil_z, z);
+	put_apart(plan, stencils, along_x ? z : 0, 1, plan->stencil_x, x);
+	put_apart(plan, stencils, along_x ? 0 : x, 1, plan->stencil_z, z);
 }
+
+/* Numbers of neighbouring nodes of a waterline, in the order of BLOCK_INPUT_; so many at a time. */
+enum { TILE = 64 };
+typedef double block_tile[BLOCK_INPUT_COUNT][TILE];
 
 static bool on_hull(const batten_search_problem *problem, size_t node)
 {
 	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
 }
 
-/* One node's numbers, in the order of BLOCK_INPUT_. */
-static void node_numbers(const search_plan *plan, const batten_search_problem *problem, size_t i,
-                         size_t k, double numbers[BLOCK_INPUT_COUNT])
+/* Those of nodes i to i + count of waterline k; nodes outside the hull are all 0. */
+static void fill_tile(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                      size_t k, size_t count, block_tile tile)
 {
-	const size_t node = k * plan->station_count + i;
-	const double cell = plan->cell_x[i] * plan->cell_z[k];
 	const double h2 = problem->half_beam_m * problem->half_beam_m;
-	const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
-	numbers[BLOCK_INPUT_LOWER] = problem->lower_m[node];
-	numbers[BLOCK_INPUT_UPPER] = problem->upper_m[node];
-	numbers[BLOCK_INPUT_START] = search_start_of(problem, node);
-	numbers[BLOCK_INPUT_TARGET] = problem->target_m[node];
-	numbers[BLOCK_INPUT_BEND] = search_has_term(plan, problem, i, k) ? problem->w1 * cell : 0.0;
-	numbers[BLOCK_INPUT_CLOSE] = problem->w2 * weight * cell / (h2 * h2);
+	for (size_t j = 0; j < count; j++) {
+		const size_t node = k * plan->station_count + i + j;
+		const double cell = plan->cell_x[i + j] * plan->cell_z[k];
+		const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
+		tile[BLOCK_INPUT_LOWER][j] = problem->lower_m[node];
+		tile[BLOCK_INPUT_UPPER][j] = problem->upper_m[node];
+		tile[BLOCK_INPUT_START][j] = search_start_of(problem, node);
+		tile[BLOCK_INPUT_TARGET][j] = problem->target_m[node];
+		tile[BLOCK_INPUT_BEND][j] = search_has_term(plan, problem, i + j, k) ? problem->w1 * cell
+		                                                                     : 0.0;
+		tile[BLOCK_INPUT_CLOSE][j] = problem->w2 * weight * cell / (h2 * h2);
+		if (!on_hull(problem, node))
+			for (size_t a = 0; a < BLOCK_INPUT_COUNT; a++)
+				tile[a][j] = 0.0;
+	}
+}
+
+/* Where node i of waterline k lies, the next node of the waterline `step` further on. */
+static size_t place_of(block_lines_shape shape, size_t i, size_t k, size_t *step)
+{
+	*step = shape.along_x ? 1 : shape.length;
+	return shape.along_x ? k * shape.length + i : i * shape.length + k;
 }
 
 void block_pack(const search_plan *plan, const batten_search_problem *problem, void *input,
@@ -69,20 +88,22 @@ void block_pack(const search_plan *plan, const batten_search_problem *problem, v
 	const block_lines_shape shape = block_lines_of(plan);
 	const size_t nodes = shape.lines * shape.length;
 	for (size_t k = 0; k < plan->waterline_count; k++)
-		for (size_t i = 0; i < plan->station_count; i++) {
-			const size_t place = shape.along_x ? k * shape.length + i : i * shape.length + k;
-			double numbers[BLOCK_INPUT_COUNT] = { 0.0 };
-			if (on_hull(problem, k * plan->station_count + i))
-				node_numbers(plan, problem, i, k, numbers);
+		for (size_t i = 0; i < plan->station_count; i += TILE) {
+			const size_t left = plan->station_count - i;
+			const size_t count = left < TILE ? left : TILE;
+			block_tile tile;
+			size_t step = 0;
+			const size_t place = place_of(shape, i, k, &step);
+			fill_tile(plan, problem, i, k, count, tile);
 			for (size_t a = 0; a < BLOCK_INPUT_COUNT; a++)
-				put_all(plan, input, a * nodes + place, &numbers[a], 1);
+				put_apart(plan, input, a * nodes + place, step, tile[a], count);
 		}
 	const double chosen[BLOCK_SETTING_COUNT] = {
 		[BLOCK_SETTING_LONGEST] = 4.0 * plan->options.first_step * problem->half_beam_m,
 		[BLOCK_SETTING_LAST_STEP] = plan->options.last_step * problem->half_beam_m,
 		[BLOCK_SETTING_CURVATURE] = 1.0 / problem->half_beam_m,
 	};
-	put_all(plan, settings, 0, chosen, BLOCK_SETTING_COUNT);
+	put_apart(plan, settings, 0, 1, chosen, BLOCK_SETTING_COUNT);
 }
 
 static double get(const search_plan *plan, const void *numbers, size_t at)
@@ -101,6 +122,8 @@ static batten_search_end end_of(const double values[BLOCK_OUTCOME_COUNT])
 
 static size_t count_terms(const search_plan *plan, const batten_search_problem *problem)
 {
+	if (!problem->nodes)
+		return (plan->station_count - 2) * (plan->waterline_count - 2);
 	size_t terms = 0;
 	for (size_t k = 0; k < plan->waterline_count; k++)
 		for (size_t i = 0; i < plan->station_count; i++)
@@ -108,15 +131,17 @@ static size_t count_terms(const search_plan *plan, const batten_search_problem *
 	return terms;
 }
 
-void block_unpack(const search_plan *plan, const batten_search_problem *problem, const void *y,
+void block_unpack(const search_plan *plan, const batten_search_problem *problem, const void *input,
                   const void *outcome, double *y_m, batten_search_result *result)
 {
 	const block_lines_shape shape = block_lines_of(plan);
 	for (size_t k = 0; k < plan->waterline_count; k++)
 		for (size_t i = 0; i < plan->station_count; i++) {
 			const size_t node = k * plan->station_count + i;
-			const size_t place = shape.along_x ? k * shape.length + i : i * shape.length + k;
-			y_m[node] = search_end_of_node(plan, problem, node, get(plan, y, place));
+			size_t step = 0;
+			const size_t place = BLOCK_INPUT_START * shape.lines * shape.length +
+			                     place_of(shape, i, k, &step);
+			y_m[node] = search_end_of_node(plan, problem, node, get(plan, input, place));
 		}
 	double values[BLOCK_OUTCOME_COUNT];
 	for (size_t v = 0; v < BLOCK_OUTCOME_COUNT; v++)

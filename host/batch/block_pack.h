@@ -21,8 +21,8 @@ void block_pack_stencils(const search_plan *plan, void *stencils);
 void block_pack(const search_plan *plan, const batten_search_problem *problem, void *input,
                 void *settings);
 
-/* Takes a search's end: y_m of the nodes on the hull (the others get the start) and the result. */
-void block_unpack(const search_plan *plan, const batten_search_problem *problem, const void *y,
+/* Takes a search's end, which stands where its start was: y_m of the nodes on the hull (the others get the start) and the result. */
+void block_unpack(const search_plan *plan, const batten_search_problem *problem, const void *input,
                   const void *outcome, double *y_m, batten_search_result *result);
 
 #endif

@@ -11,10 +11,9 @@ batten_status block_reference_create(const search_plan *plan, block_reference *o
 	block_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, block_stencil_count(plan), size);
 	search.input = batten_allocate(plan->context, nodes, BLOCK_INPUT_COUNT * size);
-	search.y = batten_allocate(plan->context, nodes, size);
 	search.scratch = batten_allocate(plan->context,
 	                                 REFERENCE_BLOCK_SCRATCH(shape.lines, shape.length), size);
-	if (!search.stencils || !search.input || !search.y || !search.scratch) {
+	if (!search.stencils || !search.input || !search.scratch) {
 		block_reference_release(&search);
 		return BATTEN_MEMORY;
 	}
@@ -27,7 +26,7 @@ void block_reference_release(block_reference *search)
 {
 	if (!search->plan)
 		return;
-	void *memory[] = { search->stencils, search->input, search->y, search->scratch };
+	void *memory[] = { search->stencils, search->input, search->scratch };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(search->plan->context, memory[i]);
 	*search = (block_reference){ 0 };
@@ -55,9 +54,9 @@ void block_reference_run(block_reference *search, const batten_search_problem *p
 	block_pack(plan, problem, search->input, &settings);
 	if (plan->options.precision == BATTEN_F64)
 		reference_block_search_f64(&shared, search->stencils, search->input, settings.f64,
-		                           search->y, outcome.f64, search->scratch);
+		                           outcome.f64, search->scratch);
 	else
 		reference_block_search_f32(&shared, search->stencils, search->input, settings.f32,
-		                           search->y, outcome.f32, search->scratch);
-	block_unpack(plan, problem, search->y, &outcome, y_m, result);
+		                           outcome.f32, search->scratch);
+	block_unpack(plan, problem, search->input, &outcome, y_m, result);
 }

@@ -7,7 +7,7 @@
 /* Room for one search at a time in the plan's precision. */
 typedef struct block_reference {
 	const search_plan *plan;
-	void *stencils, *input, *y, *scratch;
+	void *stencils, *input, *scratch;
 } block_reference;
 
 batten_status block_reference_create(const search_plan *plan, block_reference *out);

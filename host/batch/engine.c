@@ -150,6 +150,17 @@ batten_status batch_engine_open(batten_context *context, const batch_engine_reci
 	return status;
 }
 
+void *batch_engine_memory(batch_engine *e, size_t count, size_t size)
+{
+	size_t bytes = 0;
+	if (!__builtin_mul_overflow(count, size, &bytes) && e->memory && bytes <= e->memory_bytes)
+		return e->memory;
+	batten_release(e->context, e->memory);
+	e->memory = batten_allocate(e->context, count, size);
+	e->memory_bytes = e->memory ? bytes : 0;
+	return e->memory;
+}
+
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most)
 {
 	const uint64_t device = batch_engine_device(e)->max_allocation_bytes;
@@ -166,6 +177,7 @@ void batch_engine_destroy(batch_engine *e)
 	device_kernel_destroy(e->kernel);
 	device_program_destroy(e->program);
 	device_session_close(e->session);
+	batten_release(e->context, e->memory);
 	batten_release(e->context, e);
 }
 

@@ -30,6 +30,8 @@ typedef struct batch_engine {
 	device_program *program;
 	device_kernel *kernel;
 	batten_selftest test;
+	void *memory; /* of batch_engine_memory() */
+	size_t memory_bytes;
 	struct batch_engine *next;
 } batch_engine;
 
@@ -66,6 +68,10 @@ typedef batten_status batch_engine_selftest(batch_engine *engine, const void *pl
 batten_status batch_engine_open(batten_context *context, const batch_engine_recipe *recipe,
                                 batch_engine_selftest *selftest, const void *plan,
                                 batch_engine **out, batten_selftest *result);
+
+/* Memory of so many things of that size, which the engine keeps from launch to launch: pages that are
+ * there already cost nothing. What is in it is not known. NULL: out of memory. */
+void *batch_engine_memory(batch_engine *e, size_t count, size_t size);
 
 /* Most bytes of one launch: most, or what the device or the context allots at a time. */
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most);

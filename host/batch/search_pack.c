@@ -55,6 +55,8 @@ bool search_has_term(const search_plan *plan, const batten_search_problem *probl
 	const size_t stations = plan->station_count;
 	if (i == 0 || k == 0 || i + 1 == stations || k + 1 == plan->waterline_count)
 		return false;
+	if (!problem->nodes)
+		return true;
 	for (size_t b = k - 1; b <= k + 1; b++)
 		for (size_t a = i - 1; a <= i + 1; a++)
 			if (!on_hull(problem, b * stations + a))

@@ -14,12 +14,13 @@ typedef struct reference_block_search {
 	 (size_t)BLOCK_SUM_COUNT * (lines))
 
 /* stencils: STENCIL_SIZE a line, then a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings
- * [BLOCK_SETTING_COUNT]; y [nodes], outcome [BLOCK_OUTCOME_COUNT]. */
+ * [BLOCK_SETTING_COUNT], outcome [BLOCK_OUTCOME_COUNT]. The end of the search takes the place of its
+ * start. */
 void reference_block_search_f64(const reference_block_search *shared, const double *stencils,
-                                const double *input, const double *settings, double *y,
-                                double *outcome, double *scratch);
+                                double *input, const double *settings, double *outcome,
+                                double *scratch);
 void reference_block_search_f32(const reference_block_search *shared, const float *stencils,
-                                const float *input, const float *settings, float *y, float *outcome,
+                                float *input, const float *settings, float *outcome,
                                 float *scratch);
 
 #endif

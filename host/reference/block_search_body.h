@@ -9,8 +9,7 @@
 #include "shared/block_lanes.h"
 
 void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *stencils,
-                           const scalar *input, const scalar *settings, scalar *y, scalar *outcome,
-                           scalar *scratch)
+                           scalar *input, const scalar *settings, scalar *outcome, scalar *scratch)
 {
 	const int nodes = shared->lines * shared->length;
 	scalar lanes[BLOCK_OUTCOME_COUNT + 1];
@@ -26,7 +25,7 @@ void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *s
 		                    .ring = ring,
 		                    .sums = ring + (size_t)3 * (size_t)shared->length * BLOCK_PROBE_COUNT };
 	const block_memory m = {
-		.inputs = input, .settings = settings, .y = y, .outcomes = outcome, .lanes = lanes
+		.inputs = input, .settings = settings, .outcomes = outcome, .lanes = lanes
 	};
 	block_queue q = { .next = 0, .end = 1 };
 	block_run(&s, &m, &q, shared->iteration_limit);

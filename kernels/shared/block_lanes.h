@@ -12,9 +12,10 @@ typedef struct block_queue {
 } block_queue;
 
 typedef struct block_memory {
-	GLOBAL const scalar *inputs, *settings; /* [search][BLOCK_INPUT_COUNT][nodes], ... */
-	GLOBAL scalar *y, *outcomes;            /* [search][nodes], [search][BLOCK_OUTCOME_COUNT] */
-	LOCAL real *lanes;                      /* [BLOCK_OUTCOME_COUNT] */
+	GLOBAL scalar *inputs; /* [search][BLOCK_INPUT_COUNT][nodes]; the end takes the start's place */
+	GLOBAL const scalar *settings; /* [search][BLOCK_SETTING_COUNT] */
+	GLOBAL scalar *outcomes;       /* [search][BLOCK_OUTCOME_COUNT] */
+	LOCAL real *lanes;             /* [BLOCK_OUTCOME_COUNT] */
 } block_memory;
 
 /* Writes what the lanes marked in `leaves` came to. */
@@ -23,13 +24,16 @@ SHARED_FUNCTION void block_store(const block_state *s, const block_memory *m, co
 {
 	const STATE scalar *y = (const STATE scalar *)block_array(s, BLOCK_INPUT_START);
 	const LOCAL scalar *told = (const LOCAL scalar *)m->lanes;
+	const int values = BLOCK_INPUT_COUNT * s->nodes;
 	ROLLED
-	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
+	for (int lane = 0; lane < BATTEN_LANES; lane++) {
+		if (!leaves[lane])
+			continue;
+		GLOBAL scalar *to = m->inputs + (size_t)q->current[lane] * (size_t)values +
+		                    BLOCK_INPUT_START * s->nodes;
 		ROLLED
-		for (int lane = 0; lane < BATTEN_LANES; lane++)
-			if (leaves[lane])
-				m->y[(size_t)q->current[lane] * (size_t)s->nodes + (size_t)n] =
-					y[(size_t)n * BATTEN_LANES + (size_t)lane];
+		for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
+			to[n] = y[n * BATTEN_LANES + lane];
 	}
 	ROLLED
 	for (int lane = 0; lane < BATTEN_LANES; lane++)
@@ -46,12 +50,13 @@ SHARED_FUNCTION void block_load(const block_state *s, const block_memory *m, con
 	STATE scalar *to = (STATE scalar *)s->arrays;
 	const int values = BLOCK_INPUT_COUNT * s->nodes;
 	ROLLED
-	for (int n = WORK_ITEM; n < values; n += WORK_ITEMS) {
+	for (int lane = 0; lane < BATTEN_LANES; lane++) {
+		if (!takes[lane])
+			continue;
+		GLOBAL const scalar *from = m->inputs + (size_t)q->current[lane] * (size_t)values;
 		ROLLED
-		for (int lane = 0; lane < BATTEN_LANES; lane++)
-			if (takes[lane])
-				to[(size_t)n * BATTEN_LANES + (size_t)lane] =
-					m->inputs[(size_t)q->current[lane] * (size_t)values + (size_t)n];
+		for (int n = WORK_ITEM; n < values; n += WORK_ITEMS)
+			to[n * BATTEN_LANES + lane] = from[n];
 	}
 }
 

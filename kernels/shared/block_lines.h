@@ -14,6 +14,13 @@
 #define BLOCK_PIVOT_FLOOR LITERAL(1e-5)
 #endif
 
+/* Lines whose rows are factored side by side. */
+#if BATTEN_LANES > 1
+enum { BLOCK_TOGETHER = 4 };
+#else
+enum { BLOCK_TOGETHER = 1 };
+#endif
+
 typedef struct block_state {
 	int lines, length, nodes;
 	int slots; /* lines that the ring of probes has room for */
@@ -29,21 +36,56 @@ SHARED_FUNCTION STATE real *block_array(const block_state *s, int array)
 	return s->arrays + array * s->nodes;
 }
 
-SHARED_FUNCTION node_slopes block_slopes_at(const block_state *s, STATE const real *y, int line,
-                                            int k)
+/* Differences of y at three neighbouring nodes of a line, as a walk along it keeps them: those across
+ * the line at the node before, here and at the next, those along it from the node before and to the
+ * next. */
+typedef struct block_window {
+	real first_below, first_here, first_above;
+	real second_here, second_above;
+	real rise_below, rise_above;
+	real here;
+} block_window;
+
+/* Goes on to node k; the next one's differences are taken in. */
+SHARED_FUNCTION void block_walk(const block_state *s, STATE const real *y, int line, int k,
+                                block_window *at)
 {
-	node_stencil stencil;
-	for (int w = 0; w < STENCIL_SIZE; w++) {
-		stencil.x[w] = s->across[line * STENCIL_SIZE + w];
-		stencil.z[w] = s->along[k * STENCIL_SIZE + w];
-	}
-	const STATE real *h = y + (line * s->length + k);
-	const STATE real *aft = h - s->length;
-	const STATE real *fore = h + s->length;
-	const node_row below = { aft[-1], h[-1], fore[-1] };
-	const node_row here = { aft[0], h[0], fore[0] };
-	const node_row above = { aft[1], h[1], fore[1] };
-	return slopes_of(stencil, below, here, above);
+	GLOBAL const scalar *w = s->across + line * STENCIL_SIZE;
+	const STATE real *next = y + (line * s->length + k + 1);
+	const real here = next[0];
+	const real aft = here - next[-s->length];
+	const real fore = next[s->length] - here;
+	at->first_below = at->first_here;
+	at->first_here = at->first_above;
+	at->first_above = w[0] * aft + w[1] * fore;
+	at->second_here = at->second_above;
+	at->second_above = w[3] * fore - w[2] * aft;
+	at->rise_below = at->rise_above;
+	at->rise_above = here - at->here;
+	at->here = here;
+}
+
+/* Stands before node 1 of a line. */
+SHARED_FUNCTION block_window block_window_at(const block_state *s, STATE const real *y, int line)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	block_window at = { zero, zero, zero, zero, zero, zero, zero, zero };
+	block_walk(s, y, line, -1, &at);
+	block_walk(s, y, line, 0, &at);
+	return at;
+}
+
+/* The derivatives of y at node k, to the bit those of slopes_of. */
+SHARED_FUNCTION node_slopes block_slopes_at(const block_state *s, const block_window *at, int k)
+{
+	GLOBAL const scalar *w = s->along + k * STENCIL_SIZE;
+	node_slopes d;
+	d.y_x = at->first_here;
+	d.y_z = w[0] * at->rise_below + w[1] * at->rise_above;
+	d.y_xx = at->second_here;
+	d.y_xz = stencil_first(w[0], w[1], at->first_below, at->first_here, at->first_above);
+	d.y_zz = w[3] * at->rise_above - w[2] * at->rise_below;
+	return d;
 }
 
 SHARED_FUNCTION int block_is_inside(int at, int count)
@@ -51,47 +93,69 @@ SHARED_FUNCTION int block_is_inside(int at, int count)
 	return at > 0 && at + 1 < count;
 }
 
+SHARED_FUNCTION real block_line_closeness(const block_state *s, STATE const real *y, int line)
+{
+	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
+	const STATE real *target = block_array(s, BLOCK_INPUT_TARGET);
+	real sum = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
+		const real off = y[n] - target[n];
+		sum += close[n] * (off * off);
+	}
+	return sum;
+}
+
 /* A line's part of the objective at y. */
 SHARED_FUNCTION real block_line_objective(const block_state *s, STATE const real *y, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const STATE real *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE) + line * s->length;
-	const STATE real *target = block_array(s, BLOCK_INPUT_TARGET) + line * s->length;
-	const int inside = block_is_inside(line, s->lines);
-	real sum = zero;
+	real sum = block_line_closeness(s, y, line);
+	if (!block_is_inside(line, s->lines))
+		return sum;
+	block_window at = block_window_at(s, y, line);
 	ROLLED
-	for (int k = 0; k < s->length; k++) {
-		const real off = y[line * s->length + k] - target[k];
-		if (inside && block_is_inside(k, s->length)) {
-			const real energy = bend[k] * bending_density(block_slopes_at(s, y, line, k));
-			sum += CHOOSE(bend[k] > zero, energy, zero);
-		}
-		sum += close[k] * (off * off);
+	for (int k = 1; k + 1 < s->length; k++) {
+		block_walk(s, y, line, k, &at);
+		const real energy = bend[k] * bending_density(block_slopes_at(s, &at, k));
+		sum += CHOOSE(bend[k] > zero, energy, zero);
 	}
 	return sum;
 }
 
-SHARED_FUNCTION STATE real *block_ring(const block_state *s, int line, int k)
+/* Where the probes of a line are kept, node by node. */
+SHARED_FUNCTION STATE real *block_ring(const block_state *s, int line)
 {
-	return s->ring + ((line % s->slots) * s->length + k) * BLOCK_PROBE_COUNT;
+	return s->ring + (line % s->slots) * s->length * BLOCK_PROBE_COUNT;
 }
 
-SHARED_FUNCTION void block_keep(STATE real *to, block_probes found, real bend)
+SHARED_FUNCTION void block_keep(STATE real *to, block_probes found)
 {
-	const mask has = bend > SPREAD(LITERAL(0.0));
+	to[BLOCK_PROBE_P] = found.p;
+	to[BLOCK_PROBE_Q] = found.q;
+	to[BLOCK_PROBE_R] = found.r;
+	to[BLOCK_PROBE_S] = found.s;
+	to[BLOCK_PROBE_T] = found.t;
+	to[BLOCK_PROBE_RR] = found.rr;
+	to[BLOCK_PROBE_SS] = found.ss;
+	to[BLOCK_PROBE_TT] = found.tt;
+	to[BLOCK_PROBE_RS] = found.rs;
+	to[BLOCK_PROBE_RT] = found.rt;
+	to[BLOCK_PROBE_ST] = found.st;
+}
+
+/* Derivatives at a node without an energy, which may be anything, as 0: what is probed there is then
+ * finite, and its weight is 0. */
+SHARED_FUNCTION node_slopes block_slopes_where(mask has, node_slopes at)
+{
 	const real zero = SPREAD(LITERAL(0.0));
-	to[BLOCK_PROBE_P] = CHOOSE(has, bend * found.p, zero);
-	to[BLOCK_PROBE_Q] = CHOOSE(has, bend * found.q, zero);
-	to[BLOCK_PROBE_R] = CHOOSE(has, bend * found.r, zero);
-	to[BLOCK_PROBE_S] = CHOOSE(has, bend * found.s, zero);
-	to[BLOCK_PROBE_T] = CHOOSE(has, bend * found.t, zero);
-	to[BLOCK_PROBE_RR] = CHOOSE(has, bend * found.rr, zero);
-	to[BLOCK_PROBE_SS] = CHOOSE(has, bend * found.ss, zero);
-	to[BLOCK_PROBE_TT] = CHOOSE(has, bend * found.tt, zero);
-	to[BLOCK_PROBE_RS] = CHOOSE(has, bend * found.rs, zero);
-	to[BLOCK_PROBE_RT] = CHOOSE(has, bend * found.rt, zero);
-	to[BLOCK_PROBE_ST] = CHOOSE(has, bend * found.st, zero);
+	at.y_x = CHOOSE(has, at.y_x, zero);
+	at.y_z = CHOOSE(has, at.y_z, zero);
+	at.y_xx = CHOOSE(has, at.y_xx, zero);
+	at.y_xz = CHOOSE(has, at.y_xz, zero);
+	at.y_zz = CHOOSE(has, at.y_zz, zero);
+	return at;
 }
 
 /* Probes a line of nodes. Returns the line's part of the objective at y. */
@@ -100,152 +164,202 @@ SHARED_FUNCTION real block_probe_line(const block_state *s, int line, real far)
 	const real zero = SPREAD(LITERAL(0.0));
 	const STATE real *y = block_array(s, BLOCK_INPUT_START);
 	const STATE real *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE) + line * s->length;
-	const STATE real *target = block_array(s, BLOCK_INPUT_TARGET) + line * s->length;
-	const int inside = block_is_inside(line, s->lines);
-	real sum = zero;
+	real sum = block_line_closeness(s, y, line);
+	if (!block_is_inside(line, s->lines))
+		return sum;
+	block_window window = block_window_at(s, y, line);
+	STATE real *ring = block_ring(s, line);
 	ROLLED
-	for (int k = 0; k < s->length; k++) {
-		const real off = y[line * s->length + k] - target[k];
-		if (inside && block_is_inside(k, s->length)) {
-			const node_slopes at = block_slopes_at(s, y, line, k);
-			const block_probes found = BLOCK_ANALYTIC ? block_derive(at) : block_probe(at, far);
-			block_keep(block_ring(s, line, k), found, bend[k]);
-			sum += CHOOSE(bend[k] > zero, bend[k] * found.value, zero);
-		}
-		sum += close[k] * (off * off);
+	for (int k = 1; k + 1 < s->length; k++) {
+		block_walk(s, y, line, k, &window);
+		const node_slopes at = block_slopes_where(bend[k] > zero, block_slopes_at(s, &window, k));
+		const block_probes found = BLOCK_ANALYTIC ? block_derive(at, bend[k])
+		                                          : block_probe(at, far, bend[k]);
+		block_keep(ring + k * BLOCK_PROBE_COUNT, found);
+		sum += bend[k] * found.value;
 	}
 	return sum;
 }
 
-/* What the term of one node, or of three side by side, adds to a line: to the slopes of the offsets
- * below, at and above it, to the diagonal, to what couples neighbours, and those one apart. */
+/* What the terms of a node and of those beside it, across the line, add to the line: to the slopes of
+ * the offsets below, at and above it, to the diagonal, to what couples neighbours, and those one
+ * apart. */
 typedef struct block_terms {
 	real slope_below, slope_here, slope_above;
 	real self_below, self_here, self_above;
 	real below_here, here_above, below_above;
 } block_terms;
 
-/* A line's stencils at a node: of the mixed and of the second derivative. */
-typedef struct block_stencil {
-	scalar first_below, first_here, first_above;
-	scalar second_below, second_here, second_above;
-} block_stencil;
+/* Those terms, still along the five derivatives: across the line its offset at the node weighs in as
+ * much as the stencils say. */
+typedef struct block_across {
+	real here;          /* slope of the offset itself */
+	real mixed, second; /* slopes along the first and the second difference along the line */
+	real rr, rs, ss, rt, st, tt;
+} block_across;
 
-SHARED_FUNCTION block_stencil block_stencil_of(GLOBAL const scalar *w)
+/* What a line's offsets weigh in the derivatives across at one of three lines of nodes, and the probes
+ * there; NULL where that line has none. */
+typedef struct block_side {
+	const STATE real *probes;
+	scalar first, second, square, both, bend; /* weights, their products: first^2, both, second^2 */
+} block_side;
+
+SHARED_FUNCTION block_side block_side_of(const block_state *s, int line, scalar first,
+                                         scalar second)
 {
-	block_stencil b;
-	b.first_below = -w[0];
-	b.first_here = w[0] - w[1];
-	b.first_above = w[1];
-	b.second_below = w[2];
-	b.second_here = -(w[2] + w[3]);
-	b.second_above = w[3];
-	return b;
+	block_side side;
+	side.probes = block_is_inside(line, s->lines) ? block_ring(s, line) : (const STATE real *)0;
+	side.first = first;
+	side.second = second;
+	side.square = first * first;
+	side.both = second * first;
+	side.bend = second * second;
+	return side;
 }
 
-/* first, second: weights that the line's offset has in the first and the second derivative across. */
-SHARED_FUNCTION void block_add_across(block_terms *t, const STATE real *probes, scalar first,
-                                      scalar second, block_stencil b)
+/* The lines at, before and behind a line, as the line is felt there. */
+typedef struct block_sides {
+	block_side own, aft, fore;
+} block_sides;
+
+SHARED_FUNCTION block_sides block_sides_of(const block_state *s, int line)
 {
-	const real slope = second * probes[BLOCK_PROBE_R] + first * probes[BLOCK_PROBE_P];
-	const real mixed = first * probes[BLOCK_PROBE_S];
-	const real rr = (second * second) * probes[BLOCK_PROBE_RR];
-	const real rs = (second * first) * probes[BLOCK_PROBE_RS];
-	const real ss = (first * first) * probes[BLOCK_PROBE_SS];
-	const real here = rs + b.first_here * ss;
-	t->slope_below += b.first_below * mixed;
-	t->slope_here += slope + b.first_here * mixed;
-	t->slope_above += b.first_above * mixed;
-	t->self_below += (b.first_below * b.first_below) * ss;
-	t->self_here += rr + b.first_here * (rs + here);
-	t->self_above += (b.first_above * b.first_above) * ss;
-	t->below_here += b.first_below * here;
-	t->here_above += b.first_above * here;
-	t->below_above += (b.first_below * b.first_above) * ss;
+	GLOBAL const scalar *w = s->across + line * STENCIL_SIZE;
+	GLOBAL const scalar *aft = w - (line > 0 ? STENCIL_SIZE : 0);
+	GLOBAL const scalar *fore = w + (line + 1 < s->lines ? STENCIL_SIZE : 0);
+	block_sides sides;
+	sides.own = block_side_of(s, line, w[0] - w[1], -(w[2] + w[3]));
+	sides.aft = block_side_of(s, line - 1, aft[1], aft[3]);
+	sides.fore = block_side_of(s, line + 1, -fore[0], fore[2]);
+	return sides;
 }
 
-/* What the line's own nodes add beyond that: the derivatives along it. */
-SHARED_FUNCTION void block_add_along(block_terms *t, const STATE real *probes, scalar first,
-                                     scalar second, block_stencil b)
+SHARED_FUNCTION void block_add_across(block_across *t, const block_side *side, int k)
 {
-	const real two = SPREAD(LITERAL(2.0));
-	const real q = probes[BLOCK_PROBE_Q];
-	const real u = probes[BLOCK_PROBE_T];
-	const real tt = probes[BLOCK_PROBE_TT];
-	const real rt = second * probes[BLOCK_PROBE_RT];
-	const real st = first * probes[BLOCK_PROBE_ST];
-	const real cross = rt + b.first_here * st;
-	const real here = b.second_here * tt + cross;
-	t->slope_below += b.first_below * q + b.second_below * u;
-	t->slope_here += b.first_here * q + b.second_here * u;
-	t->slope_above += b.first_above * q + b.second_above * u;
-	t->self_below += b.second_below * (b.second_below * tt + two * (b.first_below * st));
-	t->self_here += b.second_here * (here + cross);
-	t->self_above += b.second_above * (b.second_above * tt + two * (b.first_above * st));
-	t->below_here += b.second_below * here + (b.second_here * b.first_below) * st;
-	t->here_above += b.second_above * here + (b.second_here * b.first_above) * st;
-	t->below_above += (b.second_below * b.second_above) * tt +
-	                  (b.first_below * b.second_above + b.first_above * b.second_below) * st;
+	if (!side->probes)
+		return;
+	const STATE real *probes = side->probes + k * BLOCK_PROBE_COUNT;
+	t->here += side->second * probes[BLOCK_PROBE_R] + side->first * probes[BLOCK_PROBE_P];
+	t->mixed += side->first * probes[BLOCK_PROBE_S];
+	t->rr += side->bend * probes[BLOCK_PROBE_RR];
+	t->rs += side->both * probes[BLOCK_PROBE_RS];
+	t->ss += side->square * probes[BLOCK_PROBE_SS];
+}
+
+SHARED_FUNCTION block_across block_across_at(const block_sides *sides, int k)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	block_across t = { zero, zero, zero, zero, zero, zero, zero, zero, zero };
+	block_add_across(&t, &sides->own, k);
+	if (sides->own.probes) {
+		const STATE real *probes = sides->own.probes + k * BLOCK_PROBE_COUNT;
+		t.mixed += probes[BLOCK_PROBE_Q];
+		t.second = probes[BLOCK_PROBE_T];
+		t.rt = sides->own.second * probes[BLOCK_PROBE_RT];
+		t.st = sides->own.first * probes[BLOCK_PROBE_ST];
+		t.tt = probes[BLOCK_PROBE_TT];
+	}
+	block_add_across(&t, &sides->aft, k);
+	block_add_across(&t, &sides->fore, k);
+	return t;
 }
 
 /* The terms of node k of a line and of those beside it, as the line feels them. */
-SHARED_FUNCTION block_terms block_terms_at(const block_state *s, int line, int k)
+SHARED_FUNCTION block_terms block_terms_at(const block_state *s, const block_sides *sides, int k)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	block_terms t = { zero, zero, zero, zero, zero, zero, zero, zero, zero };
 	if (!block_is_inside(k, s->length))
 		return t;
-	const block_stencil b = block_stencil_of(s->along + k * STENCIL_SIZE);
-	GLOBAL const scalar *w = s->across + line * STENCIL_SIZE;
-	if (block_is_inside(line, s->lines)) {
-		const STATE real *probes = block_ring(s, line, k);
-		const scalar first = w[0] - w[1];
-		const scalar second = -(w[2] + w[3]);
-		block_add_across(&t, probes, first, second, b);
-		block_add_along(&t, probes, first, second, b);
-	}
-	if (line > 1)
-		block_add_across(&t, block_ring(s, line - 1, k), w[1 - STENCIL_SIZE], w[3 - STENCIL_SIZE],
-		                 b);
-	if (line + 2 < s->lines)
-		block_add_across(&t, block_ring(s, line + 1, k), -w[STENCIL_SIZE], w[2 + STENCIL_SIZE], b);
+	const block_across a = block_across_at(sides, k);
+	GLOBAL const scalar *w = s->along + k * STENCIL_SIZE;
+	/* Weights of the three offsets in the first and the second derivative along the line. */
+	const scalar first_below = -w[0], first_here = w[0] - w[1], first_above = w[1];
+	const scalar second_below = w[2], second_here = -(w[2] + w[3]), second_above = w[3];
+	t.slope_below = first_below * a.mixed + second_below * a.second;
+	t.slope_here = a.here + (first_here * a.mixed + second_here * a.second);
+	t.slope_above = first_above * a.mixed + second_above * a.second;
+	const real s_below = first_below * a.ss + second_below * a.st;
+	const real t_below = first_below * a.st + second_below * a.tt;
+	const real s_above = first_above * a.ss + second_above * a.st;
+	const real t_above = first_above * a.st + second_above * a.tt;
+	const real s_here = (first_here * a.ss + second_here * a.st) + a.rs;
+	const real t_here = (first_here * a.st + second_here * a.tt) + a.rt;
+	t.self_below = first_below * s_below + second_below * t_below;
+	t.self_above = first_above * s_above + second_above * t_above;
+	t.below_above = first_below * s_above + second_below * t_above;
+	t.below_here = first_below * s_here + second_below * t_here;
+	t.here_above = first_above * s_here + second_above * t_here;
+	t.self_here = (first_here * s_here + second_here * t_here) +
+	              ((first_here * a.rs + second_here * a.rt) + a.rr);
 	return t;
 }
 
-/* A row of a line's table as it is gathered, and the factors of the rows before. */
+/* A row of a line's table as it is gathered. */
 typedef struct block_row {
 	real slope, self, next, over;
 } block_row;
+
+/* Factors of the rows before, as the next one needs them. */
 typedef struct block_factor {
 	real inverse_1, inverse_2; /* pivots one and two rows before */
 	real factor;               /* of the row before with the one before that */
 	real next, over_1, over_2; /* what couples the rows before with this one and the next */
 } block_factor;
 
-/* Factors row n; a held row couples with nothing and has no pivot. */
-SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_row row, mask is_free,
-                                      block_factor *f)
+/* Factors row n, whose diagonal, coupling with the next row and with the one after that lie where the
+ * factors go. A held row has 0 on its diagonal, couples with nothing and has no pivot. */
+SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_factor *f)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	const real over = CHOOSE(is_free, f->over_2, zero);
-	const real next = CHOOSE(is_free, f->next, zero) - f->factor * over;
-	const real factor_2 = over * f->inverse_2;
-	const real factor_1 = next * f->inverse_1;
-	const real pivot = row.self - (factor_2 * over + factor_1 * next);
-	const real sound = CHOOSE(pivot > SPREAD(BLOCK_PIVOT_FLOOR) * row.self, pivot, row.self);
-	const mask has = is_free & (sound > zero);
-	const real inverse = CHOOSE(has, one / CHOOSE(has, sound, one), zero);
-	block_array(s, BLOCK_STATE_INVERSE)[n] = inverse;
-	block_array(s, BLOCK_STATE_FACTOR_1)[n] = factor_1;
-	block_array(s, BLOCK_STATE_FACTOR_2)[n] = factor_2;
+	STATE real *inverse = block_array(s, BLOCK_STATE_INVERSE) + n;
+	STATE real *factor_1 = block_array(s, BLOCK_STATE_FACTOR_1) + n;
+	STATE real *factor_2 = block_array(s, BLOCK_STATE_FACTOR_2) + n;
+	const real self = *inverse;
+	const mask has = self > zero;
+	const real over = CHOOSE(has, f->over_2, zero);
+	const real next = CHOOSE(has, f->next - f->factor * over, zero);
+	const real by_2 = over * f->inverse_2;
+	const real by_1 = next * f->inverse_1;
+	const real pivot = (self - by_2 * over) - by_1 * next;
+	const real sound = CHOOSE(pivot > SPREAD(BLOCK_PIVOT_FLOOR) * self, pivot, self);
 	f->inverse_2 = f->inverse_1;
-	f->inverse_1 = inverse;
-	f->factor = factor_1;
-	f->next = row.next;
+	f->inverse_1 = CHOOSE(has, one / CHOOSE(has, sound, one), zero);
+	f->factor = by_1;
+	f->next = *factor_1;
 	f->over_2 = f->over_1;
-	f->over_1 = row.over;
+	f->over_1 = *factor_2;
+	*inverse = f->inverse_1;
+	*factor_1 = by_1;
+	*factor_2 = by_2;
+}
+
+/* Factors the tables of `count` lines, at most BLOCK_TOGETHER, from `first` on, `apart` lines one from
+ * the other. Every row waits for the one before: rows of several lines wait side by side. */
+SHARED_FUNCTION void block_factor_lines(const block_state *s, int first, int apart, int count)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	block_factor factors[BLOCK_TOGETHER];
+	for (int i = 0; i < BLOCK_TOGETHER; i++) {
+		factors[i].inverse_1 = factors[i].inverse_2 = factors[i].factor = zero;
+		factors[i].next = factors[i].over_1 = factors[i].over_2 = zero;
+	}
+	if (count == BLOCK_TOGETHER) {
+		ROLLED
+		for (int k = 0; k < s->length; k++)
+			for (int i = 0; i < BLOCK_TOGETHER; i++)
+				block_factor_row(s, (first + i * apart) * s->length + k, &factors[i]);
+		return;
+	}
+	ROLLED
+	for (int i = 0; i < count; i++) {
+		block_factor f = factors[0];
+		ROLLED
+		for (int k = 0; k < s->length; k++)
+			block_factor_row(s, (first + i * apart) * s->length + k, &f);
+	}
 }
 
 /* What the pattern move wants of the slopes: products with the moves remembered. */
@@ -261,9 +375,9 @@ SHARED_FUNCTION int block_slot(int turn, int age)
 	return (turn + 2 * BLOCK_MEMORY - 1 - age) % BLOCK_MEMORY;
 }
 
-/* Completes row n: closeness, the bounds, the change of the slope; then factors it. */
+/* Completes row n: closeness, the bounds, the change of the slope; leaves it to be factored. */
 SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, real damping,
-                                      block_row row, block_factor *f, block_products *sums)
+                                      block_row row, block_products *sums)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real two = SPREAD(LITERAL(2.0));
@@ -279,11 +393,12 @@ SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, rea
 	row.self += damping * row.self;
 	STATE real *slope = block_array(s, BLOCK_STATE_SLOPE) + n;
 	const real change = row.slope - *slope;
-	const real before = block_array(s, BLOCK_STATE_INVERSE)[n];
-	block_factor_row(s, n, row, is_free, f);
-	const real now = block_array(s, BLOCK_STATE_INVERSE)[n];
-	const mask differs = ((before > zero) & (now == zero)) | ((now > zero) & (before == zero));
+	STATE real *self = block_array(s, BLOCK_STATE_INVERSE) + n;
+	const mask differs = is_free != (*self > zero);
 	sums->changed += CHOOSE(differs, SPREAD(LITERAL(1.0)), zero);
+	*self = CHOOSE(is_free, row.self, zero);
+	block_array(s, BLOCK_STATE_FACTOR_1)[n] = CHOOSE(is_free, row.next, zero);
+	block_array(s, BLOCK_STATE_FACTOR_2)[n] = CHOOSE(is_free, row.over, zero);
 	*slope = row.slope;
 	block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, 0))[n] = change;
 	for (int m = 0; m < BLOCK_MEMORY; m++) {
@@ -293,25 +408,25 @@ SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, rea
 	}
 }
 
-/* Slopes and the factored table of one line, whose probes and those beside it are in the ring. */
+/* Slopes and the table of one line, whose probes and those beside it are in the ring. */
 SHARED_FUNCTION void block_gather_line(const block_state *s, int line, int turn, real damping)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	block_row row = { zero, zero, zero, zero };
 	block_row above = row;
-	block_factor factor = { zero, zero, zero, zero, zero, zero };
 	block_products sums;
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		sums.slope[m] = sums.change[m] = zero;
 	sums.changed = zero;
+	const block_sides sides = block_sides_of(s, line);
 	ROLLED
 	for (int k = 1; k <= s->length; k++) {
-		const block_terms t = block_terms_at(s, line, k);
+		const block_terms t = block_terms_at(s, &sides, k);
 		row.slope += t.slope_below;
 		row.self += t.self_below;
 		row.next += t.below_here;
 		row.over = t.below_above;
-		block_finish_row(s, line * s->length + k - 1, turn, damping, row, &factor, &sums);
+		block_finish_row(s, line * s->length + k - 1, turn, damping, row, &sums);
 		row.slope = above.slope + t.slope_here;
 		row.self = above.self + t.self_here;
 		row.next = t.here_above;
@@ -343,7 +458,7 @@ SHARED_FUNCTION void block_solve_line(const block_state *s, int line, int turn, 
 			const real change = block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n];
 			z -= CHOOSE(alpha[m] != zero, alpha[m] * change, zero);
 		}
-		z -= factor_1[n] * one_before + factor_2[n] * two_before;
+		z = (z - factor_2[n] * two_before) - factor_1[n] * one_before;
 		two_before = one_before;
 		one_before = z;
 		way[n] = z;

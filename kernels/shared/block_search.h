@@ -61,21 +61,29 @@ SHARED_FUNCTION real block_most(const block_state *s, int sum)
 }
 
 /* Probes and tables of all lines, WORK_ITEMS at a time: a line is gathered when those beside it are
- * probed. */
+ * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. */
 SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, real damping)
 {
 	const int at_once = s->slots - 2;
+	int gathered = 0, line = 0;
 	ROLLED
 	for (int first = 0; first <= s->lines; first += at_once) {
 		ROLLED
-		for (int line = first + WORK_ITEM; line < first + at_once && line < s->lines;
+		for (line = first + WORK_ITEM; line < first + at_once && line < s->lines;
 		     line += WORK_ITEMS)
 			s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line] = block_probe_line(s, line, far);
 		WAIT;
 		ROLLED
-		for (int line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS)
-			if (line >= 0 && line < s->lines)
-				block_gather_line(s, line, turn, damping);
+		for (line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS) {
+			if (line < 0 || line >= s->lines)
+				continue;
+			block_gather_line(s, line, turn, damping);
+			gathered++;
+			if (gathered == BLOCK_TOGETHER || line + WORK_ITEMS >= s->lines) {
+				block_factor_lines(s, line - (gathered - 1) * WORK_ITEMS, WORK_ITEMS, gathered);
+				gathered = 0;
+			}
+		}
 		WAIT;
 	}
 }
