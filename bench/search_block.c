@@ -1,18 +1,24 @@
-/* search.block: the block search to its own end, against others to the same objective on every hull: the
- * multilevel search, and NLopt's LD_LBFGS with the gradient by formula, one hull after another in plain C.
- * Where a rival cannot come as low, it runs as low as it can, and the block search to its end all the
+/* search.block: the block search to its own end, 256 hulls in a batch, against others to the same
+ * objective on every one of the first 16: the multilevel search, the same block search with slopes by
+ * formula, and NLopt's LD_LBFGS with the gradient by formula, one hull after another in plain C. Where a rival cannot come as low, it runs as low as it can, and the block search to its end all the
  * same. How far each must run is found beforehand. */
 #include "nlopt_peer.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { HULLS = 16, ITERATIONS = 20000, REPEATS = 8 /* of what takes two milliseconds */ };
+enum { HULLS = 16, BATCH = 256, ITERATIONS = 20000 };
+
+/* Floating-point operations of an iteration, counted in the source, divisions and roots as one: at a node
+ * with an energy (probes, objective of the trial) and at every node (tables, their factors, the way). */
+enum { OPERATIONS_A_TERM = 297, OPERATIONS_A_NODE = 194 };
+enum { TERMS = (WIGLEY_STATIONS - 2) * (WIGLEY_WATERLINES - 2) };
 
 typedef struct contest {
 	const bench_settings *settings;
 	wigley_case w;
-	wigley_side block, multilevel;
+	wigley_side block, gradient, multilevel;
+	double operations;              /* of a batch of the block search */
 	double ends[WIGLEY_MOST_HULLS]; /* of the block search */
 	double most[WIGLEY_MOST_HULLS]; /* what the rival must reach */
 	nlopt_peer_function *nlopt;     /* NULL: not there */
@@ -46,10 +52,12 @@ static batten_status agree(contest *c, const double *others)
 
 static batten_status run_block(contest *c)
 {
-	batten_status status = BATTEN_OK;
-	for (int r = 0; r < REPEATS && status == BATTEN_OK; r++)
-		status = wigley_search(c->settings, &c->block, &c->w, c->w.results, NULL);
-	return status;
+	return wigley_search(c->settings, &c->block, &c->w, c->w.results, NULL);
+}
+
+static batten_status run_gradient(contest *c)
+{
+	return wigley_search(c->settings, &c->gradient, &c->w, c->w.results, NULL);
 }
 
 static batten_status run_multilevel(contest *c)
@@ -90,22 +98,51 @@ static batten_status prepare_nlopt(contest *c)
 	return status;
 }
 
-static batten_status pair(contest *c, rival *other, bench_row *row)
+/* hulls: how many the rival runs. */
+static batten_status pair(contest *c, rival *other, size_t hulls, bench_row *row)
 {
 	bench_pairs pairs;
+	double share[BENCH_PAIRS] = { 0.0 };
 	batten_status status = BATTEN_OK;
-	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++)
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		const double peak = bench_peak(row->precision);
 		for (int i = 0; i < 2 && status == BATTEN_OK; i++) {
 			const double begun = bench_seconds(c->settings);
 			status = i ? other(c) : run_block(c);
 			const double seconds = bench_seconds(c->settings) - begun;
-			*(i ? &pairs.reference[p] : &pairs.value[p]) = i ? seconds : seconds / REPEATS;
+			*(i ? &pairs.reference[p] : &pairs.value[p]) = seconds / (double)(i ? hulls : BATCH);
+			if (!i && peak > 0.0)
+				share[p] = 100.0 * c->operations / (peak * seconds);
 		}
+	}
 	if (status != BATTEN_OK)
 		return status;
-	bench_pairs_judge(&pairs, 1e6 / HULLS, row);
+	bench_pairs_judge(&pairs, 1e6, row);
+	row->percent_of_peak = bench_is_cpu(c->settings) ? bench_median(share) : 0.0;
 	c->settings->emit(row, c->settings->user);
 	return BATTEN_OK;
+}
+
+static batten_status prepare_gradient(contest *c)
+{
+	double others[WIGLEY_MOST_HULLS] = { 0.0 };
+	wigley_side judged = c->gradient;
+	judged.count = HULLS;
+	const batten_status status = wigley_ends(c->settings, &judged, &c->w, others);
+	return status == BATTEN_OK ? agree(c, others) : status;
+}
+
+/* The ends of the first hulls, and what a batch takes. */
+static batten_status prepare_block(contest *c, batten_run *ran)
+{
+	wigley_side judged = c->block;
+	judged.count = HULLS;
+	batten_status status = wigley_search(c->settings, &c->block, &c->w, c->w.results, ran);
+	c->operations = 0.0;
+	for (size_t h = 0; h < BATCH && status == BATTEN_OK; h++)
+		c->operations += (double)c->w.results[h].iterations *
+		                 (OPERATIONS_A_TERM * TERMS + OPERATIONS_A_NODE * WIGLEY_NODES);
+	return status == BATTEN_OK ? wigley_ends(c->settings, &judged, &c->w, c->ends) : status;
 }
 
 static batten_status run_case(contest *c, double raw_w2, batten_precision precision)
@@ -114,22 +151,28 @@ static batten_status run_case(contest *c, double raw_w2, batten_precision precis
 	batten_run ran = { .strict = true };
 	(void)snprintf(row.case_name, sizeof row.case_name, "21x20 w %g", raw_w2);
 	c->block = make_side(c, BATTEN_ALGORITHM_BLOCK, precision);
+	c->block.count = BATCH;
+	c->gradient = c->block;
+	c->gradient.options.analytic_slopes = true;
 	c->multilevel = make_side(c, BATTEN_ALGORITHM_MULTILEVEL, precision);
 	c->within = precision == BATTEN_F64 ? 1e-6 : 2e-4;
-	batten_status status = wigley_search(c->settings, &c->block, &c->w, c->w.results, &ran);
+	batten_status status = prepare_block(c, &ran);
 	(void)snprintf(row.device, sizeof row.device, "%s", ran.device);
-	if (status == BATTEN_OK)
-		status = wigley_ends(c->settings, &c->block, &c->w, c->ends);
 	if (status == BATTEN_OK)
 		status = prepare_multilevel(c);
 	row.reference = "multilevel";
 	if (status == BATTEN_OK)
-		status = pair(c, run_multilevel, &row);
+		status = pair(c, run_multilevel, HULLS, &row);
+	if (status == BATTEN_OK)
+		status = prepare_gradient(c);
+	row.reference = "line_gradient";
+	if (status == BATTEN_OK)
+		status = pair(c, run_gradient, BATCH, &row);
 	if (status != BATTEN_OK || !c->nlopt)
 		return status;
 	row.reference = "nlopt_lbfgs";
 	status = prepare_nlopt(c);
-	return status == BATTEN_OK ? pair(c, run_nlopt, &row) : status;
+	return status == BATTEN_OK ? pair(c, run_nlopt, HULLS, &row) : status;
 }
 
 batten_status bench_search_block(const bench_settings *settings)
@@ -140,7 +183,7 @@ batten_status bench_search_block(const bench_settings *settings)
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++) {
 		contest c = { .settings = settings };
 		c.nlopt = (nlopt_peer_function *)bench_open_peer("batten_nlopt_peer", "nlopt_peer_search");
-		status = wigley_case_create(HULLS, weights[i], &c.w) ? BATTEN_OK : BATTEN_MEMORY;
+		status = wigley_case_create(BATCH, weights[i], &c.w) ? BATTEN_OK : BATTEN_MEMORY;
 		for (int precision = 0; precision < 2 && status == BATTEN_OK; precision++)
 			status = run_case(&c, weights[i], precision ? BATTEN_F32 : BATTEN_F64);
 		wigley_case_release(&c.w);

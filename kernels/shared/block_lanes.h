@@ -95,6 +95,7 @@ SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works)
 	p->moves = CHOOSE(begins, zero, p->moves);
 	p->trials = CHOOSE(begins, zero, p->trials);
 	p->fall = CHOOSE(begins, zero, p->fall);
+	p->gained = CHOOSE(begins, zero, p->gained);
 	p->damping = CHOOSE(begins, zero, p->damping);
 }
 
@@ -172,7 +173,7 @@ SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, bloc
 	q->turns = 0;
 	p.working = p.fresh = p.objective = p.start = p.step = p.calm = p.converged = zero;
 	p.iterations = p.moves = p.trials = p.fall = p.damping = p.promise = zero;
-	p.tries = zero;
+	p.tries = p.gained = zero;
 	p.old_1 = p.old_2 = p.older = zero;
 	for (int pair = 0; pair < BLOCK_MEMORY; pair++)
 		p.inverse[pair] = zero;

@@ -8,13 +8,17 @@
 #include "block_lines.h"
 #include "multilevel.h"
 
-/* A search has ended when the objective fell by less than this part of it BLOCK_CALM times running. */
+/* A search has ended when the objective fell by less than this part of it BLOCK_CALM times running; or by
+ * less than BLOCK_FADING of these, and so much less than the time before that falls which go on so come to
+ * less than BLOCK_FADED of one in all. */
 #if BATTEN_DOUBLE
 #define BLOCK_CALM_PART LITERAL(1e-8)
 #else
 #define BLOCK_CALM_PART LITERAL(1e-6)
 #endif
 #define BLOCK_CALM LITERAL(2.0)
+#define BLOCK_FADING LITERAL(10.0)
+#define BLOCK_FADED LITERAL(0.01)
 /* Tables are damped by so much at least, or not at all. */
 #define BLOCK_DAMPING_LEAST LITERAL(0.125)
 #define BLOCK_DAMPING_MOST LITERAL(1e4)
@@ -26,6 +30,7 @@ enum { BLOCK_TRIALS = 8 }; /* whole objectives an iteration */
 typedef struct block_progress {
 	real working, fresh; /* has a search; has just begun it */
 	real objective, start, step, calm, converged;
+	real gained; /* by the last iteration */
 	real iterations, moves, trials;
 	real damping;               /* of the tables: what their diagonals are raised by, as a part */
 	real tries;                 /* of the last iteration */
@@ -236,6 +241,24 @@ SHARED_FUNCTION void block_take(const block_state *s, int turn, mask gain)
 	WAIT;
 }
 
+/* What the gain of an iteration says of those to come. */
+SHARED_FUNCTION void block_judge_gain(real found, mask gain, real longest, block_limits limits,
+                                      block_progress *p)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const real gained = p->objective - found;
+	const real small = SPREAD(BLOCK_CALM_PART) * p->objective;
+	const mask little = gain & (gained <= small);
+	const mask whole = gain & (p->tries == one) & (longest <= limits.longest) &
+	                   (p->fall <= SPREAD(LITERAL(3.0)) * gained);
+	const mask fades = whole & (gained <= SPREAD(BLOCK_FADING) * small) &
+	                   (gained * gained <= (p->gained - gained) * (SPREAD(BLOCK_FADED) * small));
+	p->calm = CHOOSE(little, p->calm + one, CHOOSE(gain, zero, p->calm));
+	p->calm = CHOOSE(fades, SPREAD(BLOCK_CALM), p->calm);
+	p->gained = CHOOSE(gain, gained, zero);
+}
+
 /* Goes along the way as far as the objective falls; the parabola through the objective here, its slope
  * and the trial says how far next. Returns where a lane gained. */
 SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
@@ -274,8 +297,7 @@ SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
 			break;
 		part = CHOOSE(trying, part * shorter, part);
 	}
-	const mask little = gain & (p->objective - found <= SPREAD(BLOCK_CALM_PART) * p->objective);
-	p->calm = CHOOSE(little, p->calm + one, CHOOSE(gain, zero, p->calm));
+	block_judge_gain(found, gain, longest, limits, p);
 	p->objective = found;
 	p->trials += p->tries;
 	block_take(s, turn, gain);
