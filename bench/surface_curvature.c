@@ -16,7 +16,7 @@ typedef struct workload {
 	size_t count, points; /* surfaces, points of each */
 	double u[GRID_U], v[GRID_V];
 	batten_surface **surfaces;
-	double *values, *known;
+	void *values, *known; /* doubles; of the grids in f32 floats */
 	batten_surface_energies *energies, *known_energies;
 } workload;
 
@@ -59,8 +59,8 @@ static batten_status workload_create(const bench_settings *settings, bool energy
 		             .points = energy ? GAUSS_COUNT : GRID_U * GRID_V };
 	const size_t numbers = energy ? 1 : w->count * w->points * 2;
 	w->surfaces = calloc(w->count, sizeof *w->surfaces);
-	w->values = calloc(numbers, sizeof *w->values);
-	w->known = calloc(numbers, sizeof *w->known);
+	w->values = calloc(numbers, sizeof(double));
+	w->known = calloc(numbers, sizeof(double));
 	w->energies = calloc(w->count, sizeof *w->energies);
 	w->known_energies = calloc(w->count, sizeof *w->known_energies);
 	if (!w->surfaces || !w->values || !w->known || !w->energies || !w->known_energies)
@@ -91,6 +91,9 @@ static batten_status run_batch(const bench_settings *settings, void *user, int d
 	if (w->energy)
 		return batten_surface_energy_batch(settings->context, w->count, surfaces, &options,
 		                                   known ? w->known_energies : w->energies, run);
+	if (precision == BATTEN_F32)
+		return batten_surface_grid_batch_float(settings->context, w->count, surfaces, &samples,
+		                                       &options, known ? w->known : w->values, NULL, run);
 	return batten_surface_grid_batch(settings->context, w->count, surfaces, &samples, &options,
 	                                 known ? w->known : w->values, NULL, run);
 }
@@ -100,7 +103,7 @@ static bool same_results(const void *user)
 	const workload *w = user;
 	if (w->energy)
 		return memcmp(w->energies, w->known_energies, w->count * sizeof *w->energies) == 0;
-	return memcmp(w->values, w->known, w->count * w->points * 2 * sizeof *w->values) == 0;
+	return memcmp(w->values, w->known, w->count * w->points * 2 * sizeof(double)) == 0;
 }
 
 static batten_status run_case(const bench_settings *settings, bool energy,

@@ -18,7 +18,8 @@ typedef struct contest {
 	peer_grid peer;
 	batten_surface *surfaces[COUNT];
 	double u[GRID_U], v[GRID_V];
-	double *values, *known; /* of COUNT surfaces; of OF_PEER */
+	void *values;  /* of COUNT surfaces: doubles, in f32 floats */
+	double *known; /* of OF_PEER */
 } contest;
 
 static void contest_release(contest *c)
@@ -31,7 +32,7 @@ static void contest_release(contest *c)
 
 static batten_status contest_create(const bench_settings *settings, contest *c)
 {
-	c->values = calloc((size_t)COUNT * POINTS * 2, sizeof *c->values);
+	c->values = calloc((size_t)COUNT * POINTS * 2, sizeof(double));
 	c->known = calloc((size_t)OF_PEER * POINTS * 2, sizeof *c->known);
 	if (!c->values || !c->known)
 		return BATTEN_MEMORY;
@@ -54,9 +55,14 @@ static batten_status time_ours(const bench_settings *settings, contest *c,
 	options.device = settings->device;
 	options.precision = precision;
 	const double begun = bench_is_cpu(settings) ? bench_cpu_seconds() : bench_wall_seconds();
-	const batten_status status = batten_surface_grid_batch(
-		settings->context, COUNT, (const batten_surface *const *)c->surfaces, &samples, &options,
-		c->values, NULL, run);
+	const batten_surface *const *surfaces = (const batten_surface *const *)c->surfaces;
+	const batten_status status = precision == BATTEN_F32
+	                                 ? batten_surface_grid_batch_float(settings->context, COUNT,
+	                                                                   surfaces, &samples, &options,
+	                                                                   c->values, NULL, run)
+	                                 : batten_surface_grid_batch(settings->context, COUNT, surfaces,
+	                                                             &samples, &options, c->values,
+	                                                             NULL, run);
 	*seconds = (bench_is_cpu(settings) ? bench_cpu_seconds() : bench_wall_seconds()) - begun;
 	*seconds /= (double)COUNT * POINTS;
 	return status;
@@ -75,17 +81,24 @@ static batten_status time_peer(contest *c, double *seconds)
 	return good ? BATTEN_OK : BATTEN_INTERNAL;
 }
 
-/* Every K and H within the tolerance of the largest of its kind on its surface. */
-static bool agrees(const contest *c, double tolerance)
+static double value_of(const contest *c, batten_precision precision, size_t n)
 {
+	return precision == BATTEN_F32 ? (double)((const float *)c->values)[n]
+	                               : ((const double *)c->values)[n];
+}
+
+/* Every K and H within the tolerance of the largest of its kind on its surface. */
+static bool agrees(const contest *c, batten_precision precision)
+{
+	const double tolerance = precision == BATTEN_F64 ? 1e-12 : 1e-4;
 	for (size_t part = 0; part < (size_t)OF_PEER * 2; part++) {
 		const double *known = c->known + part * POINTS;
-		const double *values = c->values + part * POINTS;
 		double largest = 0.0;
 		for (size_t i = 0; i < POINTS; i++)
 			largest = fmax(largest, fabs(known[i]));
 		for (size_t i = 0; i < POINTS; i++)
-			if (!(fabs(values[i] - known[i]) <= tolerance * largest))
+			if (!(fabs(value_of(c, precision, part * POINTS + i) - known[i]) <=
+			      tolerance * largest))
 				return false;
 	}
 	return true;
@@ -102,7 +115,7 @@ static batten_status run_case(const bench_settings *settings, contest *c,
 	batten_status status = time_ours(settings, c, precision, &run, &seconds);
 	if (status == BATTEN_OK)
 		status = time_peer(c, &seconds);
-	if (status == BATTEN_OK && !agrees(c, precision == BATTEN_F64 ? 1e-12 : 1e-4))
+	if (status == BATTEN_OK && !agrees(c, precision))
 		status = BATTEN_INTERNAL;
 	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
 		status = time_ours(settings, c, precision, NULL, &pairs.value[p]);

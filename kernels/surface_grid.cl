@@ -9,7 +9,9 @@
  * Samples are worked in runs of as many as there are lanes: first the forms of all with the root and
  * the division, then the curvatures of all, so that the long wait for a root is filled with the next
  * sample's sums; then a run's values, a square of numbers, are turned so that each surface's lie side
- * by side as the caller wants them.
+ * by side as the caller wants them. One work-item lets its first two and its last two runs overlap:
+ * the samples of both are worked twice, but the runs between fill whole lines of the cache, whatever
+ * the caller's address, and none is short.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES and those below. */
 #define BATTEN_DIALECT_OPENCL
@@ -308,13 +310,27 @@ static inline void work_run(line l, int n, int count, real *tile, real *missing)
 	}
 }
 
+/* Bytes that memory is written by at once. */
+enum { CACHE_LINE = 64 };
+
+/* Where the run after the one from n begins. */
+static inline int run_after(int n, int samples, target to)
+{
+	const int last = samples - BATTEN_LANES;
+	int next = n + (int)get_local_size(0) * BATTEN_LANES;
+	if (BATTEN_LANES == 1 || get_local_size(0) > 1 || n >= last)
+		return next;
+	if (n == 0)
+		next -= (int)((size_t)to.out % CACHE_LINE / sizeof(number)) % BATTEN_LANES;
+	return next < last ? next : last;
+}
+
 /* All runs of a line that are this work-item's; whether a sample of them has no normal. */
 static inline int work_line(line l, int samples, target to)
 {
 	real missing = SPREAD(LITERAL(0.0));
 	ROLLED
-	for (int n = (int)get_local_id(0) * BATTEN_LANES; n < samples;
-	     n += (int)get_local_size(0) * BATTEN_LANES) {
+	for (int n = (int)get_local_id(0) * BATTEN_LANES; n < samples; n = run_after(n, samples, to)) {
 		const int left = samples - n;
 		const int count = left < BATTEN_LANES ? left : BATTEN_LANES;
 		target here = to;

@@ -9,9 +9,9 @@
 /* Most groups of lanes a run packs at a time. */
 enum { BLOCK_GROUPS = 16 };
 
-bool surface_engine_returns_doubles(const batten_device *device, batten_precision precision)
+bool surface_engine_returns_doubles(const batten_device *device, const surface_plan *plan)
 {
-	return precision == BATTEN_F64 || (device->is_cpu && device->has_f64);
+	return plan->precision == BATTEN_F64 || (!plan->floats && device->is_cpu && device->has_f64);
 }
 
 static batten_status run_selftest(batch_engine *engine, const void *plan)
@@ -33,7 +33,7 @@ batten_status surface_engine_open(const surface_plan *plan, size_t index,
 	(void)snprintf(recipe.options, sizeof recipe.options,
 	               "-DSURFACE_OUTPUT=%d -DORDER_U=%zu -DORDER_V=%zu -DRATIONAL=%d -DOUT_DOUBLE=%d",
 	               plan->output, plan->u.order, plan->v.order, plan->rational,
-	               surface_engine_returns_doubles(device, recipe.precision));
+	               surface_engine_returns_doubles(device, plan));
 	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 

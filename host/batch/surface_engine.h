@@ -17,7 +17,7 @@ size_t surface_engine_block(const batch_engine *engine, const surface_plan *plan
 
 /* Whether the kernel gives back doubles, or numbers of the precision: a CPU turns them into what the
  * caller wants where they are made, others have them travel as short as they are. */
-bool surface_engine_returns_doubles(const batten_device *device, batten_precision precision);
+bool surface_engine_returns_doubles(const batten_device *device, const surface_plan *plan);
 
 /* Works the surfaces whose numbers stand in which[0..count). Errors: DEVICE, KERNEL, MEMORY. */
 batten_status surface_engine_run(batch_engine *engine, const surface_plan *plan,

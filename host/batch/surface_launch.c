@@ -52,7 +52,7 @@ static void block_release(block *b)
 /* Bytes of the values of whole surfaces in a group, 0 where that is too large a number. */
 static size_t whole_group_bytes(const block *b)
 {
-	size_t bytes = b->lanes * surface_plan_values(b->plan) * sizeof(double);
+	size_t bytes = b->lanes * surface_plan_values(b->plan) * surface_plan_number(b->plan);
 	return batten_size_multiply(bytes, b->plan->u.count, &bytes) &&
 	               batten_size_multiply(bytes, b->plan->v.count, &bytes)
 	           ? bytes
@@ -72,7 +72,9 @@ static void block_divide(block *b)
 	const size_t whole = whole_group_bytes(b);
 	size_t most = device->max_allocation_bytes > 0 ? (size_t)device->max_allocation_bytes
 	                                               : SIZE_MAX;
-	b->direct = !b->sums && device->is_cpu && b->lanes > 1 && whole > 0 && whole <= most;
+	const bool as_wanted = b->doubles != b->plan->floats;
+	b->direct = !b->sums && as_wanted && device->is_cpu && b->lanes > 1 && whole > 0 &&
+	            whole <= most;
 	if (b->direct) {
 		b->launch_lines = lines;
 		b->launch_groups = least_of(most / whole, b->groups);
@@ -94,7 +96,7 @@ static void block_measure(block *b)
 	b->groups = (b->count + b->lanes - 1) / b->lanes;
 	b->net_bytes = surface_pack_net_count(plan) * b->lane_bytes;
 	b->sums = SURFACE_SUMS(plan->output);
-	b->doubles = surface_engine_returns_doubles(device_of(b), recipe->precision);
+	b->doubles = surface_engine_returns_doubles(device_of(b), plan);
 	b->surface_bytes = surface_plan_values(plan) * plan->u.count *
 	                   (b->doubles ? sizeof(double) : sizeof(float));
 	b->sums_bytes = SURFACE_SUM_COUNT * b->lane_bytes;
@@ -274,12 +276,13 @@ static void part_unpack(const block *b, const part *p)
 static batten_status part_run(block *b, const part *p)
 {
 	const surface_plan *plan = b->plan;
-	const size_t values = surface_plan_values(plan) * plan->u.count * plan->v.count;
+	const size_t bytes = surface_plan_values(plan) * plan->u.count * plan->v.count *
+	                     surface_plan_number(plan);
 	batten_status status = BATTEN_OK;
 	if (b->direct)
-		status = device_buffer_wrap(
-			b->engine->session, part_surfaces(b, p) * values * sizeof(double),
-			plan->values + (b->first + p->group * b->lanes) * values, &b->values_on);
+		status = device_buffer_wrap(b->engine->session, part_surfaces(b, p) * bytes,
+		                            (char *)plan->values + (b->first + p->group * b->lanes) * bytes,
+		                            &b->values_on);
 	if (status == BATTEN_OK)
 		status = part_launch(b, p);
 	if (status == BATTEN_OK)

@@ -51,33 +51,50 @@ void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t
 
 /* The loops over all that was computed, written for both precisions: a test for each number would
  * take as long as computing it. */
-#define TAKE(name, number)                                                                         \
-	static void name(const surface_plan *plan, double *values, const number *numbers,              \
+#define TAKE(name, number, wanted)                                                                 \
+	static void name(const surface_plan *plan, wanted *values, const number *numbers,              \
 	                 size_t value_stride, size_t stride)                                           \
 	{                                                                                              \
 		const size_t plane = plan->u.count * plan->v.count;                                        \
 		for (size_t v = 0; v < surface_plan_values(plan); v++)                                     \
 			for (size_t i = 0; i < plan->u.count; i++)                                             \
-				values[v * plane + i] = (double)numbers[v * value_stride + i * stride];            \
+				values[v * plane + i] = (wanted)numbers[v * value_stride + i * stride];            \
 	}
-TAKE(take_doubles, double)
-TAKE(take_floats, float)
+TAKE(take_doubles, double, double)
+TAKE(widen_floats, float, double)
+TAKE(take_floats, float, float)
 
-static double *line_of(const surface_plan *plan, size_t which, size_t line)
+/* The number in the plan's values where a line of a value begins. */
+static size_t line_of(const surface_plan *plan, size_t which, size_t value, size_t line)
 {
-	const size_t plane = plan->u.count * plan->v.count;
-	return plan->values + which * surface_plan_values(plan) * plane + line * plan->u.count;
+	return ((which * surface_plan_values(plan) + value) * plan->v.count + line) * plan->u.count;
 }
 
 void surface_take_line(const surface_plan *plan, size_t which, size_t line, const void *numbers,
                        bool doubles, size_t value_stride, size_t stride)
 {
-	double *values = line_of(plan, which, line);
-	if (doubles)
-		take_doubles(plan, values, numbers, value_stride, stride);
+	const size_t at = line_of(plan, which, 0, line);
+	if (plan->floats)
+		take_floats(plan, (float *)plan->values + at, numbers, value_stride, stride);
+	else if (doubles)
+		take_doubles(plan, (double *)plan->values + at, numbers, value_stride, stride);
 	else
-		take_floats(plan, values, numbers, value_stride, stride);
+		widen_floats(plan, (double *)plan->values + at, numbers, value_stride, stride);
 }
+
+/* Points whose mean curvature is the mark are singular, and have none. */
+#define MARK(name, number)                                                                         \
+	static void name(number *mean, number none, size_t count, uint8_t *singular)                   \
+	{                                                                                              \
+		for (size_t i = 0; i < count; i++)                                                         \
+			if (mean[i] == none) {                                                                 \
+				mean[i] = 0;                                                                       \
+				if (singular)                                                                      \
+					singular[i] = 1;                                                               \
+			}                                                                                      \
+	}
+MARK(mark_doubles, double)
+MARK(mark_floats, float)
 
 void surface_mark_line(const surface_plan *plan, size_t which, size_t line, bool missing)
 {
@@ -90,14 +107,12 @@ void surface_mark_line(const surface_plan *plan, size_t which, size_t line, bool
 		return;
 	const double none = plan->precision == BATTEN_F64 ? SURFACE_NO_NORMAL
 	                                                  : (double)(float)SURFACE_NO_NORMAL;
-	double *mean = line_of(plan, which, line) +
-	               plane * (plan->output == SURFACE_OUTPUT_CURVATURE ? 1 : SURFACE_MEAN);
-	for (size_t i = 0; i < plan->u.count; i++)
-		if (mean[i] == none) {
-			mean[i] = 0.0;
-			if (singular)
-				singular[i] = 1;
-		}
+	const size_t value = plan->output == SURFACE_OUTPUT_CURVATURE ? 1 : SURFACE_MEAN;
+	const size_t mean = line_of(plan, which, value, line);
+	if (plan->floats)
+		mark_floats((float *)plan->values + mean, (float)none, plan->u.count, singular);
+	else
+		mark_doubles((double *)plan->values + mean, none, plan->u.count, singular);
 }
 
 static double get(const surface_plan *plan, const void *numbers, size_t at)
@@ -112,7 +127,7 @@ void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_
 {
 	const size_t size = SURFACE_TABLE_SIZE(plan->v.rows, plan->v.order);
 	const double weight = plan->v.table[line * size + size - 1];
-	double *sums = plan->values + which * SURFACE_SUM_COUNT;
+	double *sums = (double *)plan->values + which * SURFACE_SUM_COUNT;
 	for (size_t v = 0; v < SURFACE_SUM_COUNT; v++) {
 		const double sum = get(plan, numbers, v * lanes + lane);
 		const bool counts = v == SURFACE_SUM_SINGULAR || v == SURFACE_SUM_LEFT_OUT;

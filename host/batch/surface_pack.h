@@ -17,7 +17,8 @@ void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t
                       void *net, void *least_area);
 
 /* Takes one line into the plan's values of surface `which`: value v of sample n is number
- * v * value_stride + n * stride, all doubles or all floats. */
+ * v * value_stride + n * stride, all doubles or, where the plan
+ * has f32, all floats. */
 void surface_take_line(const surface_plan *plan, size_t which, size_t line, const void *numbers,
                        bool doubles, size_t value_stride, size_t stride);
 

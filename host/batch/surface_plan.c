@@ -34,6 +34,11 @@ size_t surface_plan_line_size(const surface_plan *plan)
 	return samples * surface_plan_values(plan);
 }
 
+size_t surface_plan_number(const surface_plan *plan)
+{
+	return plan->floats ? sizeof(float) : sizeof(double);
+}
+
 size_t surface_plan_dimension(const surface_plan *plan)
 {
 	return plan->rational ? 4 : 3;

@@ -33,7 +33,9 @@ typedef struct surface_plan {
 	unsigned lanes, work_group; /* 0 chooses */
 	size_t count;
 	const surface_item *items;
-	double *values;    /* [count][values][v][u] of the output, or [count][SURFACE_SUM_COUNT] */
+	/* [count][values][v][u] of the output, doubles or floats; or [count][SURFACE_SUM_COUNT], doubles */
+	void *values;
+	bool floats;       /* values are floats; with f32 only, not for sums */
 	uint8_t *singular; /* [count][v][u] or NULL; not for sums */
 } surface_plan;
 
@@ -44,6 +46,8 @@ batten_status surface_plan_check(const surface_plan *plan);
 size_t surface_plan_values(const surface_plan *plan);
 /* Numbers of a line. */
 size_t surface_plan_line_size(const surface_plan *plan);
+/* Bytes of a number of the plan's values. */
+size_t surface_plan_number(const surface_plan *plan);
 /* Coordinates of a pole, homogeneous where rational. */
 size_t surface_plan_dimension(const surface_plan *plan);
 /* Derivatives kept when the net is taken together along v, the point among them. */

@@ -130,7 +130,13 @@ static surface_plan make_plan(test_batch *t, const batch_engine *engine, const s
 	for (size_t s = 0; s < plan.count; s++)
 		make_item(t, s, &plan, &state);
 	plan.items = t->items;
+	plan.floats = model->floats;
 	return plan;
+}
+
+static double value_of(const surface_plan *plan, const double *values, size_t n)
+{
+	return plan->floats ? (double)((const float *)values)[n] : values[n];
 }
 
 static void compare(const surface_plan *plan, const test_batch *t, batten_selftest *test)
@@ -139,8 +145,10 @@ static void compare(const surface_plan *plan, const test_batch *t, batten_selfte
 	const size_t each = surface_plan_values(plan) * (sums ? 1 : SAMPLES);
 	double worst = 0.0;
 	for (size_t n = 0; n < plan->count * each; n++) {
-		test->different += memcmp(&t->found[n], &t->known[n], sizeof t->found[n]) != 0;
-		const double off = fabs(t->found[n] - t->known[n]) / (1.0 + fabs(t->known[n]));
+		const double found = value_of(plan, t->found, n);
+		const double known = value_of(plan, t->known, n);
+		test->different += memcmp(&found, &known, sizeof found) != 0;
+		const double off = fabs(found - known) / (1.0 + fabs(known));
 		if (!(off <= worst))
 			worst = off;
 	}

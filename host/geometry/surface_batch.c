@@ -82,10 +82,8 @@ batten_status surface_topology_of(batten_context *context, size_t count,
 
 static double largest_of(const double *numbers, size_t count)
 {
-	double most = 0.0;
-	for (size_t n = 0; n < count; n++)
-		most = fmax(most, fabs(numbers[n]));
-	return most;
+	const surface_range range = surface_range_of(numbers, count, 1);
+	return fmax(-range.least, range.most);
 }
 
 static double largest_of_table(const surface_samples *samples)
@@ -102,17 +100,12 @@ static batten_status check_size(const surface_plan *plan, const batten_surface *
 	const size_t count = surface->count_u * surface->count_v;
 	double size = largest_of(surface->poles, 3 * count) * tables;
 	if (surface->weights) {
-		double least = surface->weights[0];
-		double most = least;
-		for (size_t n = 1; n < count; n++) {
-			least = fmin(least, surface->weights[n]);
-			most = fmax(most, surface->weights[n]);
-		}
-		if (!(least >= 1e-6 && most <= 1e6))
+		const surface_range weights = surface_range_of(surface->weights, count, 1);
+		if (!(weights.least >= 1e-6 && weights.most <= 1e6))
 			return batten_fail(plan->context, BATTEN_USAGE,
 			                   "surface %zu of %zu: weights %g to %g, 1e-6 to 1e6 are expected", s,
-			                   plan->count, least, most);
-		size *= most / least * (most / least);
+			                   plan->count, weights.least, weights.most);
+		size *= weights.most / weights.least * (weights.most / weights.least);
 	}
 	const double limit = plan->precision == BATTEN_F64 ? 1e150 : 1e18;
 	if (size <= limit)
@@ -205,11 +198,12 @@ static batten_status run_plan(surface_plan *plan, const batten_surface *const *s
 	return status;
 }
 
-batten_status batten_surface_grid_batch(batten_context *context, size_t count,
-                                        const batten_surface *const *surfaces,
-                                        const batten_surface_samples *samples,
-                                        const batten_surface_batch_options *options, double *values,
-                                        uint8_t *singular, batten_run *run)
+/* values: doubles or floats. */
+static batten_status run_grid(batten_context *context, size_t count,
+                              const batten_surface *const *surfaces,
+                              const batten_surface_samples *samples,
+                              const batten_surface_batch_options *options, void *values,
+                              bool floats, uint8_t *singular, batten_run *run)
 {
 	static const int outputs[] = { [BATTEN_SURFACE_POSITION] = SURFACE_OUTPUT_POSITION,
 		                           [BATTEN_SURFACE_CURVATURE] = SURFACE_OUTPUT_CURVATURE,
@@ -219,11 +213,16 @@ batten_status batten_surface_grid_batch(batten_context *context, size_t count,
 	batten_status status = surface_batch_options_check(context, options, &chosen);
 	if (status == BATTEN_OK)
 		status = surface_topology_of(context, count, surfaces, &t);
+	if (status == BATTEN_OK && floats && chosen.precision != BATTEN_F32)
+		status = batten_fail(context, BATTEN_USAGE,
+		                     "values as floats of precision %d: f32 is expected",
+		                     (int)chosen.precision);
 	if (status != BATTEN_OK)
 		return status;
 	surface_plan plan = plan_of(context, count, &t, &chosen);
 	plan.output = outputs[chosen.output];
 	plan.values = values;
+	plan.floats = floats;
 	plan.singular = singular;
 	status = surface_samples_at(context, "u", t.order_u, t.count_u, t.knots_u, samples->u_count,
 	                            samples->u, &plan.u);
@@ -235,6 +234,24 @@ batten_status batten_surface_grid_batch(batten_context *context, size_t count,
 	surface_samples_release(context, &plan.u);
 	surface_samples_release(context, &plan.v);
 	return status;
+}
+
+batten_status batten_surface_grid_batch(batten_context *context, size_t count,
+                                        const batten_surface *const *surfaces,
+                                        const batten_surface_samples *samples,
+                                        const batten_surface_batch_options *options, double *values,
+                                        uint8_t *singular, batten_run *run)
+{
+	return run_grid(context, count, surfaces, samples, options, values, false, singular, run);
+}
+
+batten_status batten_surface_grid_batch_float(batten_context *context, size_t count,
+                                              const batten_surface *const *surfaces,
+                                              const batten_surface_samples *samples,
+                                              const batten_surface_batch_options *options,
+                                              float *values, uint8_t *singular, batten_run *run)
+{
+	return run_grid(context, count, surfaces, samples, options, values, true, singular, run);
 }
 
 batten_status batten_surface_energy_batch(batten_context *context, size_t count,
@@ -255,9 +272,10 @@ batten_status batten_surface_energy_batch(batten_context *context, size_t count,
 	plan.output = chosen.variation ? SURFACE_OUTPUT_VARIATION : SURFACE_OUTPUT_ENERGY;
 	plan.segment_length = along_u;
 	const size_t rows = SURFACE_TABLE_ROWS(plan.output);
-	plan.values = batten_allocate(context, count, SURFACE_SUM_COUNT * sizeof *plan.values);
-	if (!plan.values)
+	double *values = batten_allocate(context, count, SURFACE_SUM_COUNT * sizeof *values);
+	if (!values)
 		return BATTEN_MEMORY;
+	plan.values = values;
 	status = surface_samples_gauss(context, t.order_u, rows, t.count_u, t.knots_u, along_u,
 	                               &plan.u);
 	if (status == BATTEN_OK)
@@ -266,7 +284,7 @@ batten_status batten_surface_energy_batch(batten_context *context, size_t count,
 	if (status == BATTEN_OK)
 		status = run_plan(&plan, surfaces, run);
 	for (size_t s = 0; s < count && status == BATTEN_OK; s++) {
-		const double *sums = plan.values + s * SURFACE_SUM_COUNT;
+		const double *sums = values + s * SURFACE_SUM_COUNT;
 		energies[s] = (batten_surface_energies){
 			.bending = sums[SURFACE_SUM_BENDING],
 			.mean = sums[SURFACE_SUM_MEAN],
@@ -279,6 +297,6 @@ batten_status batten_surface_energy_batch(batten_context *context, size_t count,
 	}
 	surface_samples_release(context, &plan.u);
 	surface_samples_release(context, &plan.v);
-	batten_release(context, plan.values);
+	batten_release(context, values);
 	return status;
 }

@@ -982,6 +982,13 @@ BATTEN_API batten_status batten_surface_grid_batch(batten_context *context, size
                                                    double *values, uint8_t *singular,
                                                    batten_run *run);
 
+/* The same with the values as the floats they are computed in, without what widening and writing twice
+ * as much costs; each is what batten_surface_grid_batch() gives. options->precision is to be f32. */
+BATTEN_API batten_status batten_surface_grid_batch_float(
+	batten_context *context, size_t count, const batten_surface *const *surfaces,
+	const batten_surface_samples *samples, const batten_surface_batch_options *options,
+	float *values, uint8_t *singular, batten_run *run);
+
 /* Integrals over a whole surface (thesis 4.4, Letcher 4.5; Moreton and Sequin 1992); points where the
  * normal does not exist count nothing. Principal directions, and so the variation of curvature along
  * them, exist where |k1 - k2| is more than 1e-6 (f32: 1e-3) of sqrt(k1^2 + k2^2). */

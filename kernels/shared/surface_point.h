@@ -121,7 +121,6 @@ SHARED_FUNCTION surface_forms surface_forms_of(surface_jet j, surface_triple nor
 SHARED_FUNCTION surface_shape surface_shape_from(surface_forms form, surface_triple normal)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const real two = SPREAD(LITERAL(2.0));
 	const real inverse = form.area * form.inverse2;
 	surface_shape s;
 	s.first_uu = form.first_uu;
@@ -131,9 +130,10 @@ SHARED_FUNCTION surface_shape surface_shape_from(surface_forms form, surface_tri
 	const real f = form.second_uv * inverse;
 	const real g = form.second_vv * inverse;
 	const real gauss = FUSED(e, g, -(f * f)) * form.inverse2;
-	const real mean = FUSED(e, s.first_vv, FUSED(g, s.first_uu, -((two * f) * s.first_uv))) *
+	const real mean = FUSED(e, s.first_vv, FUSED(g, s.first_uu, -((f + f) * s.first_uv))) *
 	                  (SPREAD(LITERAL(0.5)) * form.inverse2);
-	const real bending = FUSED(mean * SPREAD(LITERAL(4.0)), mean, -(two * gauss));
+	const real sum = mean + mean;
+	const real bending = FUSED(sum, sum, -(gauss + gauss));
 	s.regular = (form.inverse2 > zero) & (bending - bending == zero);
 	s.normal.x = CHOOSE(s.regular, normal.x * inverse, zero);
 	s.normal.y = CHOOSE(s.regular, normal.y * inverse, zero);
