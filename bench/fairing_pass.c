@@ -24,19 +24,18 @@ static void workload_release(workload *w)
 	free(w->known);
 }
 
-static batten_status make_hull(batten_context *context, batten_hull **out)
+static batten_status make_hull(batten_context *context, size_t stations, const double *x,
+                               batten_hull **out)
 {
-	double x[STATIONS], z[WATERLINES], y[NODES];
+	double z[WATERLINES], y[NODES];
 	for (int k = 0; k < WATERLINES; k++)
 		z[k] = k / (WATERLINES - 1.0);
-	for (int i = 0; i < STATIONS; i++)
-		x[i] = 16.0 * i / (STATIONS - 1.0);
-	for (int n = 0; n < NODES; n++) {
-		const double s = x[n % STATIONS] / 8.0 - 1.0;
-		const double t = 1.0 - z[n / STATIONS];
+	for (size_t n = 0; n < stations * WATERLINES; n++) {
+		const double s = x[n % stations] / 8.0 - 1.0;
+		const double t = 1.0 - z[n / stations];
 		y[n] = 0.8 * (1.0 - s * s) * (1.0 - t * t);
 	}
-	const batten_hull_table table = { "wigley", 16.0, 1.0, STATIONS, WATERLINES, x, z, y, NULL };
+	const batten_hull_table table = { "wigley", 16.0, 1.0, stations, WATERLINES, x, z, y, NULL };
 	return batten_hull_create(context, &table, out);
 }
 
@@ -59,8 +58,12 @@ static batten_status workload_create(const bench_settings *settings, batten_fair
 	w->y = malloc(count * NODES * sizeof *w->y);
 	w->found = malloc(count * NODES * sizeof *w->found);
 	w->known = malloc(count * NODES * sizeof *w->known);
-	batten_status status = w->y && w->found && w->known ? make_hull(settings->context, &hull)
-	                                                    : BATTEN_MEMORY;
+	double x[STATIONS];
+	for (int i = 0; i < STATIONS; i++)
+		x[i] = 16.0 * i / (STATIONS - 1.0);
+	batten_status status = w->y && w->found && w->known
+	                           ? make_hull(settings->context, STATIONS, x, &hull)
+	                           : BATTEN_MEMORY;
 	for (int side = 0; side < 2 && status == BATTEN_OK; side++) {
 		batten_pass_options options;
 		batten_pass_options_default(&options);
@@ -114,6 +117,60 @@ static batten_status contest(const bench_settings *settings, batten_fair_method 
 	return status;
 }
 
+/* The series of thesis table 5.1 on a hull of its stations, a row an iteration. */
+typedef struct series {
+	batten_hull *hull;
+	batten_fairing *fairings[2]; /* of the device, of the C path */
+} series;
+
+static batten_status run_series(const bench_settings *settings, void *series_of, int device,
+                                batten_precision precision, batten_run *out)
+{
+	series *s = series_of;
+	batten_fairing **fairing = &s->fairings[device == BATTEN_DEVICE_REFERENCE];
+	batten_fair_options options;
+	batten_fair_options_default(&options);
+	options.method = BATTEN_METHOD_FORWARD_APPROXIMATION;
+	options.smooth = false;
+	options.search.device = device;
+	options.search.precision = precision;
+	batten_fairing_destroy(*fairing);
+	*fairing = NULL;
+	const batten_status status = batten_hull_fair(settings->context, s->hull, &options, fairing);
+	if (status == BATTEN_OK && out)
+		*out = *batten_fairing_run(*fairing);
+	return status;
+}
+
+static bool same_series(const void *series_of)
+{
+	const series *s = series_of;
+	const batten_hull *found = batten_fairing_faired(s->fairings[0]);
+	const batten_hull *known = batten_fairing_faired(s->fairings[1]);
+	const size_t size = batten_hull_station_count(s->hull) * WATERLINES * sizeof(double);
+	return memcmp(batten_hull_y_m(found), batten_hull_y_m(known), size) == 0;
+}
+
+static batten_status contest_series(const bench_settings *settings)
+{
+	enum { COUNT = 13 };
+	const double x[COUNT] = { 0, 0.8, 1.6, 3.2, 4.8, 6.4, 8, 9.6, 11.2, 12.8, 14.4, 15.2, 16 };
+	series s = { NULL };
+	bench_row row = { .precision = BATTEN_F64, .unit = "ms per series" };
+	(void)snprintf(row.name, sizeof row.name, "forward.pass");
+	(void)snprintf(row.case_name, sizeof row.case_name, "table 5.1, 1 of 13x20");
+	batten_status status = make_hull(settings->context, COUNT, x, &s.hull);
+	const bench_contest c = {
+		.workload = &s, .run = run_series, .same = same_series, .scale = 1e3
+	};
+	if (status == BATTEN_OK)
+		status = bench_against_reference(settings, &c, &row);
+	batten_fairing_destroy(s.fairings[0]);
+	batten_fairing_destroy(s.fairings[1]);
+	batten_hull_destroy(s.hull);
+	return status;
+}
+
 batten_status bench_fairing_pass(const bench_settings *settings)
 {
 	batten_status status = contest(settings, BATTEN_METHOD_FORWARD_APPROXIMATION, BATTEN_F64,
@@ -125,5 +182,7 @@ batten_status bench_fairing_pass(const bench_settings *settings)
 		                 settings->full ? 10000 : 1000);
 	if (status == BATTEN_OK && settings->full)
 		status = contest(settings, BATTEN_METHOD_FORWARD_APPROXIMATION, BATTEN_F32, 10000);
+	if (status == BATTEN_OK)
+		status = contest_series(settings);
 	return status;
 }

@@ -81,15 +81,26 @@ static inline void give_back(global const real *state, int values, int hulls, gl
 	}
 }
 
-/* The program: see pass_run.h. constants: those of the state. from, to [hull][values]. room: state_size
- * reals a group. */
+/* Tells of hulls that are none: looking at their numbers here costs no journey to memory. */
+static inline void refuse(global const int *shape, global const real *state, int hulls,
+                          global int *refused)
+{
+	const real off = pass_refused(shape, state);
+	for (int l = 0; l < hulls; l++)
+		if (((const scalar *)&off)[l] > LITERAL(0.0))
+			refused[l] = 1;
+}
+
+/* The program: see pass_run.h. constants: those of the state. from, to [hull][values]; refused [hull].
+ * room: state_size reals a group. */
 kernel void fairing_pass(int hulls, int state_size, global const int *shape,
                          global const int *operations, global const int *row_first,
                          global const int *row_target, global const int *term_index,
                          global const scalar *term_factor, global const int *line_first,
                          global const int *point_from, global const int *point_to,
                          global const scalar *point_along, global const scalar *constants,
-                         global const number *from, global number *to, global real *room)
+                         global const number *from, global number *to, global int *refused,
+                         global real *room)
 {
 	const int values = shape[PASS_SHAPE_VALUES];
 	global real *state = room + get_group_id(0) * (size_t)state_size;
@@ -105,6 +116,7 @@ kernel void fairing_pass(int hulls, int state_size, global const int *shape,
 		for (int c = WORK_ITEM; c < shape[PASS_SHAPE_CONSTANTS]; c += WORK_ITEMS)
 			state[values + c] = SPREAD(constants[c]);
 		WAIT;
+		refuse(shape, state, here, refused + first);
 		pass_run(&program, state);
 		give_back(state, values, here, to + begin);
 		WAIT;

@@ -24,6 +24,9 @@ batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten
 		                           .precision = plan->precision,
 		                           .lanes = plan->lanes,
 		                           .work_group = plan->work_group };
+	/* Two vectors of f64: what they share is loaded once, and neither waits for the other. */
+	if (recipe.lanes == 0 && device->is_cpu)
+		recipe.lanes = 16;
 	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
 	(void)snprintf(recipe.options, sizeof recipe.options, "-DNUMBER_DOUBLE=%d",
 	               pass_launch_in_doubles(device, recipe.precision));
@@ -32,11 +35,8 @@ batten_status pass_engine_open(const pass_plan *plan, size_t index, const batten
 
 size_t pass_engine_block(const batch_engine *engine, const pass_plan *plan)
 {
-	const batten_device *device = batch_engine_device(engine);
 	const size_t hull_bytes = (pass_plan_values(plan) + 1) * sizeof(double);
-	size_t limit = BLOCK_BYTES;
-	if (device->max_allocation_bytes > 0 && limit > device->max_allocation_bytes)
-		limit = (size_t)device->max_allocation_bytes;
+	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	const size_t groups = limit / hull_bytes / engine->recipe.lanes;
 	return (groups ? groups : 1) * engine->recipe.lanes;
 }

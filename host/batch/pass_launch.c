@@ -22,6 +22,7 @@ enum {
 	CONSTANTS,
 	FROM,
 	TO,
+	REFUSED,
 	ROOM,
 	BUFFER_COUNT
 };
@@ -53,11 +54,15 @@ static batten_status block_create(block *b)
 	const batch_engine_recipe *recipe = &b->engine->recipe;
 	const batten_device *device = batch_engine_device(b->engine);
 	const size_t rounds = device->is_cpu ? GROUPS_OF_UNIT_CPU : GROUPS_OF_UNIT;
-	const size_t most = device->compute_units * rounds;
-	b->groups = (b->count + recipe->lanes - 1) / recipe->lanes;
-	if (b->groups > most && most > 0)
-		b->groups = most;
 	b->state_size = pass_plan_state(b->plan, recipe->work_group);
+	const size_t room = b->state_size * recipe->lanes * batch_engine_number_size(recipe->precision);
+	const size_t wanted = (b->count + recipe->lanes - 1) / recipe->lanes;
+	const size_t most[] = { device->compute_units * rounds,
+		                    batch_engine_launch_bytes(b->engine, SIZE_MAX) / room };
+	b->groups = wanted;
+	for (size_t i = 0; i < 2; i++)
+		if (b->groups > most[i])
+			b->groups = most[i] > 0 ? most[i] : 1;
 	b->doubles = pass_launch_in_doubles(device, recipe->precision);
 	b->direct = device->is_cpu && b->doubles;
 	const size_t numbers = b->count * pass_plan_values(b->plan);
@@ -102,6 +107,7 @@ static batten_status block_upload(block *b)
 		{ ROOM, b->groups * b->state_size * b->engine->recipe.lanes * number, NULL },
 		{ FROM, b->direct ? 0 : b->bytes, from },
 		{ TO, b->direct ? 0 : b->bytes, NULL },
+		{ REFUSED, b->count * sizeof *b->plan->refused, b->plan->refused + b->first },
 	};
 	device_session *session = b->engine->session;
 	batten_status status = BATTEN_OK;
@@ -132,6 +138,10 @@ static batten_status block_launch(const block *b)
 
 static batten_status block_read(const block *b)
 {
+	const batten_status told = device_buffer_read(
+		b->buffers[REFUSED], b->count * sizeof *b->plan->refused, b->plan->refused + b->first);
+	if (told != BATTEN_OK)
+		return told;
 	const size_t begin = b->first * pass_plan_values(b->plan);
 	if (b->direct)
 		return device_buffer_settle(b->buffers[TO]);

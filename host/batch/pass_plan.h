@@ -25,6 +25,7 @@ typedef struct pass_plan {
 	size_t count;
 	const double *y_m; /* [count][values] */
 	double *out_m;     /* the same, another piece of memory */
+	int32_t *refused;  /* [count], 0 before: 1 where a hull has a number that is no length */
 } pass_plan;
 
 /* Lanes and work-items in the ranges of the public options. Errors: USAGE. */

@@ -52,7 +52,8 @@ void pass_reference_run(pass_reference *reference, size_t which)
 		double *state = reference->state;
 		memcpy(state, y, values * sizeof *state);
 		memcpy(state + values, tables->constants, constants * sizeof *state);
-		reference_fairing_pass_f64(&shared, tables->term_factor, tables->point_along, state);
+		plan->refused[which] = !reference_fairing_pass_f64(&shared, tables->term_factor,
+		                                                   tables->point_along, state);
 		memcpy(out, state, values * sizeof *state);
 		return;
 	}
@@ -60,7 +61,8 @@ void pass_reference_run(pass_reference *reference, size_t which)
 	for (size_t n = 0; n < values; n++)
 		state[n] = (float)y[n];
 	memcpy(state + values, tables->constants, constants * sizeof *state);
-	reference_fairing_pass_f32(&shared, tables->term_factor, tables->point_along, state);
+	plan->refused[which] = !reference_fairing_pass_f32(&shared, tables->term_factor,
+	                                                   tables->point_along, state);
 	for (size_t n = 0; n < values; n++)
 		out[n] = (double)state[n];
 }

@@ -10,11 +10,14 @@ enum {
 	LINES = 2,     /* fitted ones */
 	VALUES = 22,   /* not a multiple of the lanes */
 	CONSTANTS = 1, /* the end of the second line */
-	STATE = VALUES + CONSTANTS + VALUES,
+	STATE = VALUES + CONSTANTS + VALUES + 1,
+	SPARE = STATE - 1,
 	ORDER = 3,
 	VERTICES = 5,
-	ROWS = 2 * VALUES,
-	TERMS = 3 * ROWS,
+	TILES = (VALUES + PASS_TILE - 1) / PASS_TILE,
+	TILE_READS = PASS_TILE + 1,
+	ROWS = VALUES + TILES * PASS_TILE,
+	TERMS = 3 * VALUES + TILES * TILE_READS * PASS_TILE,
 	LANES_MOST = 16,
 	HULLS_MOST = 2 * LANES_MOST + 1
 };
@@ -26,24 +29,40 @@ typedef struct test_batch {
 	int32_t point_from[LINES * POINTS + 1], point_to[LINES * POINTS + 1];
 	double term_factor[TERMS], point_along[LINES * POINTS], constants[CONSTANTS];
 	double y[HULLS_MOST * VALUES], found[HULLS_MOST * VALUES], known[HULLS_MOST * VALUES];
+	int32_t refused[HULLS_MOST];
 } test_batch;
 
-/* Rows of smoothing into the room, and back in order, each with what the one before left. */
+/* Rows of smoothing into the room. */
 static void make_rows(test_batch *t)
 {
-	const int32_t room = VALUES + CONSTANTS;
-	for (int32_t r = 0; r < ROWS; r++) {
-		const int32_t v = r % VALUES;
-		const int32_t base = r < VALUES ? 0 : room;
-		const int32_t before = v > 0 ? v - 1 : v;
-		const int32_t after = v + 1 < VALUES ? v + 1 : v;
-		const int32_t indices[] = { r < VALUES || v == 0 ? base + before : before, base + v,
-			                        base + after };
-		const double factors[] = { 0.3, 0.6, 0.1 };
-		t->row_first[r] = 3 * r;
-		t->row_target[r] = r < VALUES ? room + v : v;
-		memcpy(t->term_index + 3 * r, indices, sizeof indices);
-		memcpy(t->term_factor + 3 * r, factors, sizeof factors);
+	const double factors[] = { 0.3, 0.6, 0.1 };
+	for (int32_t v = 0; v < VALUES; v++) {
+		const int32_t reads[] = { v > 0 ? v - 1 : v, v, v + 1 < VALUES ? v + 1 : v };
+		t->row_first[v] = 3 * v;
+		t->row_target[v] = VALUES + CONSTANTS + v;
+		memcpy(t->term_index + 3 * v, reads, sizeof reads);
+		memcpy(t->term_factor + 3 * v, factors, sizeof factors);
+	}
+}
+
+/* Tiles back into the values, each with what the one before left; the last has rows to spare. */
+static void make_tiles(test_batch *t)
+{
+	int32_t n = 3 * VALUES;
+	for (int32_t tile = 0; tile < TILES; tile++) {
+		const int32_t begin = tile * PASS_TILE;
+		for (int32_t i = 0; i < PASS_TILE; i++) {
+			t->row_first[VALUES + begin + i] = i == 0 ? n : n + TILE_READS * PASS_TILE;
+			t->row_target[VALUES + begin + i] = begin + i < VALUES ? begin + i : SPARE;
+		}
+		for (int32_t r = 0; r < TILE_READS; r++) {
+			const int32_t v = begin + r < VALUES ? begin + r : VALUES - 1;
+			const bool before = r == PASS_TILE && tile > 0;
+			for (int32_t i = 0; i < PASS_TILE; i++, n++) {
+				t->term_index[n] = before ? begin - 1 : VALUES + CONSTANTS + v;
+				t->term_factor[n] = r == i ? 0.6 : r == PASS_TILE ? 0.25 - 0.05 * i : 0.05;
+			}
+		}
 	}
 	t->row_first[ROWS] = TERMS;
 }
@@ -65,10 +84,11 @@ static void make_lines(test_batch *t)
 
 static pass_program_numbers make_program(test_batch *t)
 {
-	const int32_t operations[] = { PASS_ROWS, 0, VALUES, PASS_ROWS_IN_ORDER, VALUES, VALUES,
-		                           PASS_FIT,  0, LINES,  PASS_FLOOR,         0,      VALUES };
+	const int32_t operations[] = { PASS_ROWS, 0, VALUES, PASS_TILES, VALUES, TILES * PASS_TILE,
+		                           PASS_FIT,  0, LINES,  PASS_FLOOR, 0,      VALUES };
 	memcpy(t->operations, operations, sizeof operations);
 	make_rows(t);
+	make_tiles(t);
 	make_lines(t);
 	pass_program_numbers program = { .row_count = ROWS,
 		                             .term_count = TERMS,
@@ -86,6 +106,7 @@ static pass_program_numbers make_program(test_batch *t)
 		                             .constants = t->constants };
 	program.shape[PASS_SHAPE_OPERATIONS] = 4;
 	program.shape[PASS_SHAPE_VALUES] = VALUES;
+	program.shape[PASS_SHAPE_LARGEST] = 1000;
 	program.shape[PASS_SHAPE_CONSTANTS] = CONSTANTS;
 	program.shape[PASS_SHAPE_STATE] = STATE;
 	program.shape[PASS_SHAPE_FIT_ORDER] = ORDER;
@@ -153,7 +174,8 @@ batten_status pass_selftest_run(batch_engine *engine)
 		               .lanes = engine->recipe.lanes,
 		               .work_group = engine->recipe.work_group,
 		               .count = 2 * (size_t)engine->recipe.lanes + 1,
-		               .y_m = t->y };
+		               .y_m = t->y,
+		               .refused = t->refused };
 	make_hulls(t, plan.count);
 	const batten_status status = run_both(engine, &plan, t);
 	if (status == BATTEN_OK)

@@ -136,7 +136,10 @@ static void keep(batten_pass *pass, const pass_writer *writer, const pass_task *
 	pass->facts = (batten_pass_facts){ .value_count = task->values,
 		                               .line_count = task->faired_count,
 		                               .passed_count = task->passed_count,
-		                               .term_count = writer->numbers.term_count };
+		                               .term_count = writer->product_count,
+		                               .order = pass->options.order,
+		                               .order_sections = pass->options.order_sections,
+		                               .vertices = pass->options.vertices };
 }
 
 static batten_status begin(batten_context *context, const batten_pass_options *options,
@@ -275,6 +278,19 @@ void pass_put_values(const double *y_m, batten_hull *hull)
 		hull->ends[e].y_m = y_m[nodes + e];
 }
 
+/* Names the first number that is no length, if any hull has one. */
+static batten_status check_numbers(const pass_plan *plan)
+{
+	const size_t values = pass_plan_values(plan);
+	for (size_t h = 0; h < plan->count; h++)
+		for (size_t n = 0; plan->refused[h] && n < values; n++)
+			if (!(fabs(plan->y_m[h * values + n]) <= HULL_LARGEST_M))
+				return batten_fail(plan->context, BATTEN_USAGE,
+				                   "number %zu of hull %zu is %g, expected at most %g m", n, h,
+				                   plan->y_m[h * values + n], HULL_LARGEST_M);
+	return BATTEN_OK;
+}
+
 batten_status batten_pass_batch(batten_context *context, const batten_pass *pass, size_t count,
                                 unsigned iterations, const double *y_m, double *out_m,
                                 batten_run *run)
@@ -282,12 +298,9 @@ batten_status batten_pass_batch(batten_context *context, const batten_pass *pass
 	if (iterations < 1 || iterations > BATTEN_ITERATIONS_MOST)
 		return batten_fail(context, BATTEN_USAGE, "found %u iterations, expected 1 to %d",
 		                   iterations, BATTEN_ITERATIONS_MOST);
-	const size_t values = pass->facts.value_count;
-	for (size_t n = 0; n < count * values; n++)
-		if (!(fabs(y_m[n]) <= HULL_LARGEST_M))
-			return batten_fail(context, BATTEN_USAGE,
-			                   "number %zu of hull %zu is %g, expected at most %g m", n % values,
-			                   n / values, y_m[n], HULL_LARGEST_M);
+	int32_t *refused = batten_allocate(context, count, sizeof *refused);
+	if (!refused)
+		return BATTEN_MEMORY;
 	const pass_plan plan = { .context = context,
 		                     .program = &pass->program,
 		                     .iterations = iterations,
@@ -297,6 +310,11 @@ batten_status batten_pass_batch(batten_context *context, const batten_pass *pass
 		                     .work_group = pass->options.work_group,
 		                     .count = count,
 		                     .y_m = y_m,
-		                     .out_m = out_m };
-	return pass_batch_run(&plan, run);
+		                     .out_m = out_m,
+		                     .refused = refused };
+	batten_status status = pass_batch_run(&plan, run);
+	if (status == BATTEN_OK)
+		status = check_numbers(&plan);
+	batten_release(context, refused);
+	return status;
 }

@@ -24,7 +24,8 @@ void pass_system_add(pass_system *system, size_t i, size_t j, double value);
 /* Cholesky; false where a pivot is nothing but rounding. */
 bool pass_system_factor(pass_system *system);
 
-/* Solves for the numbers at right[i], which the solution replaces: two operations in order. */
+/* Solves for the numbers at right[i], which the solution replaces: rows in tiles,
+ * each multiplied by the inverse of its part of the diagonal. */
 void pass_system_write(const pass_system *system, pass_writer *writer, const size_t *right);
 
 #endif

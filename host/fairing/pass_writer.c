@@ -1,5 +1,7 @@
 #include "fairing/pass_writer.h"
 
+#include "hull/hull.h"
+
 #include <string.h>
 
 /* Room for one more number in an array; doubles it where it is full. */
@@ -63,6 +65,7 @@ void pass_writer_begin(pass_writer *writer, batten_context *context, size_t valu
 	if (!good)
 		writer->status = BATTEN_MEMORY;
 	n->shape[PASS_SHAPE_VALUES] = (int32_t)values;
+	n->shape[PASS_SHAPE_LARGEST] = (int32_t)HULL_LARGEST_M;
 	n->shape[PASS_SHAPE_CONSTANTS] = (int32_t)constants;
 	n->shape[PASS_SHAPE_STATE] = (int32_t)(values + constants);
 }
@@ -97,7 +100,7 @@ static void close_operation(pass_writer *w)
 	if (w->status != BATTEN_OK || w->operation_count == 0)
 		return;
 	int32_t *last = w->numbers.operations + (w->operation_count - 1) * PASS_OPERATION_SIZE;
-	if (last[PASS_KIND] == PASS_ROWS || last[PASS_KIND] == PASS_ROWS_IN_ORDER)
+	if (last[PASS_KIND] == PASS_ROWS || last[PASS_KIND] == PASS_TILES)
 		last[PASS_COUNT] = (int32_t)w->numbers.row_count - last[PASS_FIRST];
 	else if (last[PASS_KIND] == PASS_FIT)
 		last[PASS_COUNT] = (int32_t)w->numbers.line_count - last[PASS_FIRST];
@@ -128,6 +131,12 @@ void pass_floor(pass_writer *w, size_t first, size_t count)
 }
 
 void pass_term(pass_writer *w, size_t index, double factor)
+{
+	w->product_count++;
+	pass_put_term(w, index, factor);
+}
+
+void pass_put_term(pass_writer *w, size_t index, double factor)
 {
 	pass_program_numbers *n = &w->numbers;
 	if (!grow_pair(w, (void **)&n->term_index, sizeof *n->term_index, (void **)&n->term_factor,

@@ -9,6 +9,7 @@ typedef struct pass_writer {
 	batten_context *context;
 	batten_status status;
 	pass_program_numbers numbers;
+	size_t product_count; /* those that are needed: zeros that fill up tiles are none */
 	size_t operation_count, operation_room, row_room, term_room, line_room, point_room;
 } pass_writer;
 
@@ -27,6 +28,8 @@ void pass_floor(pass_writer *writer, size_t first, size_t count);
 
 /* A row: its terms, then where their sum goes. */
 void pass_term(pass_writer *writer, size_t index, double factor);
+/* One that is counted by the caller: of a tile, where zeros are filled in. */
+void pass_put_term(pass_writer *writer, size_t index, double factor);
 void pass_row(pass_writer *writer, size_t target);
 
 /* A line: its points, then its end. */

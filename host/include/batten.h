@@ -1601,7 +1601,8 @@ BATTEN_API void batten_pass_values(const batten_pass *pass, const batten_hull *h
 /* Works iterations (1..10000) of the pass on count hulls. y_m and out_m are two arrays of the caller,
  * [count][value_count]; no half-breadth becomes less than 0. run may be NULL. The result of a hull
  * does not depend on the others, on their order or number, nor (when strict) on what ran it. Errors:
- * USAGE (also numbers that are not finite), DEVICE, KERNEL, MEMORY. */
+ * USAGE (also numbers that are not finite or beyond 1e6 m; out_m is then of no use), DEVICE, KERNEL,
+ * MEMORY. */
 BATTEN_API batten_status batten_pass_batch(batten_context *context, const batten_pass *pass,
                                            size_t count, unsigned iterations, const double *y_m,
                                            double *out_m, batten_run *run);

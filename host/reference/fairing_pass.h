@@ -2,6 +2,7 @@
 #ifndef BATTEN_REFERENCE_FAIRING_PASS_H
 #define BATTEN_REFERENCE_FAIRING_PASS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* What the hulls of a batch share; the meaning of each is that of pass_program (pass_run.h). */
@@ -10,10 +11,11 @@ typedef struct reference_fairing_pass {
 		*point_from, *point_to;
 } reference_fairing_pass;
 
-/* state: the hull's values and constants, and room; in the end its new values. */
-void reference_fairing_pass_f64(const reference_fairing_pass *shared, const double *term_factor,
+/* state: the hull's values and constants, and room; in the end its new values. false: one of them is no
+ * length. */
+bool reference_fairing_pass_f64(const reference_fairing_pass *shared, const double *term_factor,
                                 const double *point_along, double *state);
-void reference_fairing_pass_f32(const reference_fairing_pass *shared, const float *term_factor,
+bool reference_fairing_pass_f32(const reference_fairing_pass *shared, const float *term_factor,
                                 const float *point_along, float *state);
 
 #endif

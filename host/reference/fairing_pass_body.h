@@ -5,7 +5,7 @@
 #include "shared/dialect.h"
 #include "shared/pass_run.h"
 
-void FAIRING_PASS_FUNCTION(const reference_fairing_pass *shared, const scalar *term_factor,
+bool FAIRING_PASS_FUNCTION(const reference_fairing_pass *shared, const scalar *term_factor,
                            const scalar *point_along, scalar *state)
 {
 	const pass_program program = {
@@ -20,5 +20,8 @@ void FAIRING_PASS_FUNCTION(const reference_fairing_pass *shared, const scalar *t
 		.point_to = shared->point_to,
 		.point_along = point_along,
 	};
-	pass_run(&program, state);
+	const bool sound = pass_refused(shared->shape, state) == 0;
+	if (sound)
+		pass_run(&program, state);
+	return sound;
 }

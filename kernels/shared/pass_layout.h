@@ -11,10 +11,17 @@
 enum {
 	/* rows: state[target] = sum of factor * state[index], no row reading what another one writes */
 	PASS_ROWS = 0,
-	PASS_ROWS_IN_ORDER, /* rows that read what those before them wrote: triangular systems */
-	PASS_FLOOR,         /* values: below 0 they become 0 */
-	PASS_FIT, /* lines: least squares with parameters by chord length, which depend on y */
+	/* rows, PASS_TILE of them at a time, that read the same numbers, also what the rows before them
+	 * wrote, and write when all is read: triangular systems. The terms belong to the first of them,
+	 * PASS_TILE side by side to an index: one for each of the rows */
+	PASS_TILES,
+	PASS_FLOOR, /* values: below 0 they become 0 */
+	PASS_FIT,   /* lines: least squares with parameters by chord length, which depend on y */
 };
+
+/* A triangular row waits for the one before it; so many at once wait once, and load what they read
+ * once. */
+enum { PASS_TILE = 4 };
 
 /* An operation. */
 enum { PASS_KIND, PASS_FIRST, PASS_COUNT, PASS_OPERATION_SIZE };
@@ -24,6 +31,7 @@ enum {
 	PASS_SHAPE_ITERATIONS,
 	PASS_SHAPE_OPERATIONS,
 	PASS_SHAPE_VALUES,
+	PASS_SHAPE_LARGEST, /* a value is no length beyond this */
 	PASS_SHAPE_CONSTANTS,
 	PASS_SHAPE_STATE,      /* values, constants and room, but that of fits */
 	PASS_SHAPE_FIT_ORDER,  /* 0 without fits */

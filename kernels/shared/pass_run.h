@@ -18,15 +18,38 @@ typedef struct pass_program {
 	GLOBAL const scalar *point_along;
 } pass_program;
 
+#define PASS_TERM(n) (SPREAD(p->term_factor[n]) * state[p->term_index[n]])
+
 SHARED_FUNCTION void pass_work_row(const pass_program *p, int row, GLOBAL real *state)
 {
 	const int end = p->row_first[row + 1];
 	int n = p->row_first[row];
-	real sum = SPREAD(p->term_factor[n]) * state[p->term_index[n]];
+	real sum = PASS_TERM(n);
 	ROLLED
 	for (n++; n < end; n++)
-		sum += SPREAD(p->term_factor[n]) * state[p->term_index[n]];
+		sum += PASS_TERM(n);
 	state[p->row_target[row]] = sum;
+}
+
+SHARED_FUNCTION void pass_work_tile(const pass_program *p, int row, GLOBAL real *state)
+{
+	const int end = p->row_first[row + 1];
+	real a = SPREAD(LITERAL(0.0));
+	real b = a;
+	real c = a;
+	real d = a;
+	ROLLED
+	for (int n = p->row_first[row]; n < end; n += PASS_TILE) {
+		const real read = state[p->term_index[n]];
+		a += SPREAD(p->term_factor[n]) * read;
+		b += SPREAD(p->term_factor[n + 1]) * read;
+		c += SPREAD(p->term_factor[n + 2]) * read;
+		d += SPREAD(p->term_factor[n + 3]) * read;
+	}
+	state[p->row_target[row]] = a;
+	state[p->row_target[row + 1]] = b;
+	state[p->row_target[row + 2]] = c;
+	state[p->row_target[row + 3]] = d;
 }
 
 SHARED_FUNCTION void pass_work_line(const pass_program *p, int line, GLOBAL real *state)
@@ -53,11 +76,14 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 	const int first = p->operations[number * PASS_OPERATION_SIZE + PASS_FIRST];
 	const int end = first + p->operations[number * PASS_OPERATION_SIZE + PASS_COUNT];
 	const real zero = SPREAD(LITERAL(0.0));
-	if (kind == PASS_ROWS || (kind == PASS_ROWS_IN_ORDER && WORK_ITEM == 0)) {
-		const int step = kind == PASS_ROWS ? WORK_ITEMS : 1;
+	if (kind == PASS_ROWS) {
 		ROLLED
-		for (int row = first + (kind == PASS_ROWS ? WORK_ITEM : 0); row < end; row += step)
+		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS)
 			pass_work_row(p, row, state);
+	} else if (kind == PASS_TILES) {
+		ROLLED
+		for (int row = first; row < end && WORK_ITEM == 0; row += PASS_TILE)
+			pass_work_tile(p, row, state);
 	} else if (kind == PASS_FLOOR) {
 		ROLLED
 		for (int v = first + WORK_ITEM; v < end; v += WORK_ITEMS)
@@ -67,6 +93,21 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 		for (int line = first + WORK_ITEM; line < end; line += WORK_ITEMS)
 			pass_work_line(p, line, state);
 	}
+}
+
+/* Above 0 where a value of this work-item's share is no length. */
+SHARED_FUNCTION real pass_refused(GLOBAL const int *shape, GLOBAL const real *state)
+{
+	const real largest = SPREAD((scalar)shape[PASS_SHAPE_LARGEST]);
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	real sound = one;
+	ROLLED
+	for (int v = WORK_ITEM; v < shape[PASS_SHAPE_VALUES]; v += WORK_ITEMS) {
+		sound = CHOOSE(state[v] <= largest, sound, zero);
+		sound = CHOOSE(state[v] >= -largest, sound, zero);
+	}
+	return one - sound;
 }
 
 SHARED_FUNCTION void pass_run(const pass_program *p, GLOBAL real *state)

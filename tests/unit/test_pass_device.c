@@ -1,4 +1,5 @@
 /* Passes over many hulls: devices equal the C path bit for bit; a hull's result is its own. */
+#include "batch/pass_engine.h"
 #include "unit/pass_fixture.h"
 
 enum { HULLS = 150 }; /* more than the groups of a device take at a time */
@@ -93,6 +94,43 @@ static void test_equal(void **state)
 	}
 }
 
+/* A context that allots little: launches are cut to it, and the hulls come out as they do without. */
+static void test_launches_are_cut(void **state)
+{
+	enum { MEMORY = 100000 };
+	batten_context_options little;
+	batten_context *context = NULL;
+	batten_context_options_default(&little);
+	little.max_memory = MEMORY;
+	assert_int_equal(batten_context_create(&little, &context), BATTEN_OK);
+	batten_hull *hull = read_hull(*state, "wigley_noisy");
+	const int method = BATTEN_METHOD_FORWARD_APPROXIMATION;
+	batten_pass *pass = make_pass(context, hull, method, BATTEN_F64, BATTEN_DEVICE_AUTO);
+	batten_pass *plain = make_pass(*state, hull, method, BATTEN_F64, BATTEN_DEVICE_REFERENCE);
+	batch b = make_batch(pass, hull);
+	assert_true(HULLS * b.values * sizeof *b.y > 4 * (size_t)MEMORY);
+	batten_run run;
+	assert_int_equal(batten_pass_batch(context, pass, HULLS, 3, b.y, b.found, &run), BATTEN_OK);
+	assert_string_not_equal(run.device, "reference");
+	assert_int_equal(batten_pass_batch(*state, plain, HULLS, 3, b.y, b.known, NULL), BATTEN_OK);
+	assert_memory_equal(b.found, b.known, HULLS * b.values * sizeof *b.y);
+	pass_program_numbers program = { 0 };
+	program.shape[PASS_SHAPE_VALUES] = (int32_t)b.values;
+	const pass_plan plan = { .context = context, .program = &program, .precision = BATTEN_F64 };
+	batten_device device;
+	batch_engine *engine = NULL;
+	assert_int_equal(batten_device_describe(context, 0, &device), BATTEN_OK);
+	assert_int_equal(pass_engine_open(&plan, 0, &device, &engine, NULL), BATTEN_OK);
+	const size_t hulls = pass_engine_block(engine, &plan);
+	assert_true(hulls >= engine->recipe.lanes);
+	assert_true(hulls * b.values * sizeof *b.y <= MEMORY);
+	release_batch(&b);
+	batten_pass_destroy(pass);
+	batten_pass_destroy(plain);
+	batten_hull_destroy(hull);
+	batten_context_destroy(context);
+}
+
 static void test_refusals(void **state)
 {
 	batten_hull *hull = read_hull(*state, "wigley");
@@ -104,6 +142,14 @@ static void test_refusals(void **state)
 	b.y[b.values + 3] = NAN;
 	assert_int_equal(batten_pass_batch(*state, pass, 2, 1, b.y, b.found, NULL), BATTEN_USAGE);
 	assert_non_null(strstr(batten_context_error(*state), "number 3 of hull 1"));
+	batten_pass *there = make_pass(*state, hull, BATTEN_METHOD_INVERSE, BATTEN_F64, 0);
+	static const double bad[] = { NAN, INFINITY, -1.1e6 };
+	for (size_t n = 0; n < 3; n++) {
+		b.y[b.values + 3] = bad[n];
+		assert_int_equal(batten_pass_batch(*state, there, 20, 1, b.y, b.found, NULL), BATTEN_USAGE);
+		assert_non_null(strstr(batten_context_error(*state), "number 3 of hull 1 is "));
+	}
+	batten_pass_destroy(there);
 	assert_int_equal(batten_pass_batch(*state, pass, 0, 1, b.y, b.found, NULL), BATTEN_OK);
 	release_batch(&b);
 	batten_pass_destroy(pass);
@@ -114,6 +160,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_equal, make_context, end_context),
+		cmocka_unit_test_setup_teardown(test_launches_are_cut, make_context, end_context),
 		cmocka_unit_test_setup_teardown(test_refusals, make_context, end_context),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
