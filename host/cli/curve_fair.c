@@ -37,13 +37,15 @@ static batten_status read_options(const curve_request *request, batten_line_opti
 }
 
 /* The faired points, in metres, as a line file. */
-static batten_status write_points(batten_context *context, const char *path, size_t count,
-                                  const double *points)
+static batten_status write_points(batten_context *context, const char *path,
+                                  const batten_points *points)
 {
 	static const char *const columns[] = { "x", "y" };
-	const batten_table table = {
-		.name = "", .column_count = 2, .row_count = count, .columns = columns, .values = points
-	};
+	const batten_table table = { .name = batten_points_name(points),
+		                         .column_count = 2,
+		                         .row_count = batten_points_count(points),
+		                         .columns = columns,
+		                         .values = batten_points_m(points) };
 	return batten_table_write(context, &table, path);
 }
 
@@ -68,7 +70,7 @@ static batten_status fair(const curve_request *request, batten_context *context,
 	if (status == BATTEN_OK)
 		status = batten_points_create(context, batten_points_name(*points), 2, count, both, &made);
 	if (status == BATTEN_OK && request->faired)
-		status = write_points(context, request->faired, count, both);
+		status = write_points(context, request->faired, made);
 	free(y);
 	if (status != BATTEN_OK) {
 		batten_points_destroy(made);

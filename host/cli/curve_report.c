@@ -38,8 +38,9 @@ void curve_print_table(const curve_request *request, const batten_points *points
 {
 	const size_t dimension = batten_points_dimension(points);
 	const size_t count = batten_points_count(points);
+	const char *name = batten_points_name(points);
 	(void)printf("%s: %zu points, %s; metres (file: %s); parameter %s\n\n",
-	             batten_points_name(points), count, dimension == 3 ? "x,y,z" : "x,y",
+	             *name ? name : request->path, count, dimension == 3 ? "x,y,z" : "x,y",
 	             batten_points_unit(points), parameter_words[request->by]);
 	print_labels(request, "");
 	for (size_t i = 0; i < BATTEN_CURVE_MEASURE_COUNT; i++) {

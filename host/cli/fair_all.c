@@ -199,6 +199,7 @@ static json_t *comparison_json(const comparison *c, const attempt *attempts)
 			(void)json_array_append_new(skipped, json_string(attempts[m].request.method));
 	(void)json_object_set_new(object, "batten", json_string(batten_version()));
 	(void)json_object_set_new(object, "hull", json_string(batten_hull_name(c->jobs[0]->hull)));
+	(void)json_object_set_new(object, "frame", json_string("ap-fwd"));
 	(void)json_object_set_new(object, "columns", list);
 	(void)json_object_set_new(object, "not_applicable", skipped);
 	return object;

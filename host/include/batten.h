@@ -1369,7 +1369,7 @@ BATTEN_API size_t batten_hydrostatics_warnings(const batten_hydrostatics *hydros
 
 /* Numbers in named columns, as files take them, after columns of text where there are any. */
 typedef struct batten_table {
-	const char *name, *quadrature; /* of the hull and of the rule */
+	const char *name, *quadrature; /* of the hull and of the rule, NULL where there is none */
 	size_t column_count, row_count;
 	const char *const *columns; /* names with units */
 	const double *values;       /* [rows][columns]; NaN is an empty cell, null in JSON */

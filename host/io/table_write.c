@@ -71,8 +71,10 @@ static void put_csv_head(batten_table_file *out, const batten_table *table)
 {
 	put_text(out, "# unit and sign in the names; frame: ap-fwd\n# name: ");
 	put_text(out, table->name);
-	put_text(out, "\n# quadrature: ");
-	put_text(out, table->quadrature);
+	if (table->quadrature) {
+		put_text(out, "\n# quadrature: ");
+		put_text(out, table->quadrature);
+	}
 	put(out, "\n", 1);
 	for (size_t i = 0; i < table->text_count + table->column_count; i++) {
 		const size_t number = i - table->text_count;
@@ -118,9 +120,13 @@ static batten_status put_json_head(batten_table_file *out, const batten_table *t
 {
 	put_text(out, "{\n  \"name\": ");
 	const batten_status status = put_json_text(out, table->name);
-	put_text(out, ",\n  \"frame\": \"ap-fwd\",\n  \"quadrature\": \"");
-	put_text(out, table->quadrature);
-	put_text(out, "\",\n  \"rows\": [");
+	put_text(out, ",\n  \"frame\": \"ap-fwd\"");
+	if (table->quadrature) {
+		put_text(out, ",\n  \"quadrature\": \"");
+		put_text(out, table->quadrature);
+		put_text(out, "\"");
+	}
+	put_text(out, ",\n  \"rows\": [");
 	return status;
 }
 

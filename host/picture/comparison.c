@@ -11,7 +11,7 @@
 enum { HULLS_MOST = 8, ROWS_MOST = 40 };
 
 static const double page_width = 1900.0, names_width = 235.0, bar_width = 95.0;
-static const double title_height = 92.0, gap = 26.0, row_height = 24.0, text_size = 15.0;
+static const double title_height = 116.0, gap = 26.0, row_height = 24.0, text_size = 15.0;
 static const double body_height = 230.0, half_height = 150.0, map_height = 120.0;
 
 static const paper_ink dark = { 0.10, 0.12, 0.15 };
@@ -23,7 +23,7 @@ typedef struct sheet {
 	cairo_t *cairo;
 	double column; /* its width */
 	double scale_per_m;
-	double x_low, x_high, z_low, z_high, half_beam;
+	lines_box box;
 	picture_colour_map colours;
 } sheet;
 
@@ -52,18 +52,16 @@ static void write_text(const sheet *s, double x, double y, double width, paper_a
 	paper_write(s->cairo, &style, clean);
 }
 
-static void take_extent(sheet *s)
+static batten_status take_extent(sheet *s)
 {
-	for (size_t h = 0; h < s->shown->hull_count; h++) {
-		const batten_hull *hull = s->shown->hulls[h];
-		const double x_low = hull->x_m[0], x_high = hull->x_m[hull->station_count - 1];
-		const double z_low = hull->z_m[0], z_high = hull->z_m[hull->waterline_count - 1];
-		s->x_low = h > 0 ? fmin(s->x_low, x_low) : x_low;
-		s->x_high = h > 0 ? fmax(s->x_high, x_high) : x_high;
-		s->z_low = h > 0 ? fmin(s->z_low, z_low) : z_low;
-		s->z_high = h > 0 ? fmax(s->z_high, z_high) : z_high;
-		s->half_beam = fmax(s->half_beam, batten_hull_half_beam_m(hull));
-	}
+	s->box = lines_box_empty();
+	batten_status status = BATTEN_OK;
+	for (size_t h = 0; h < s->shown->hull_count && status == BATTEN_OK; h++)
+		status = lines_box_add(s->shown->hulls[h], &s->box);
+	if (status == BATTEN_OK && !(s->box.half_beam > 0.0))
+		status = batten_fail(s->context, BATTEN_INPUT,
+		                     "no half-breadth is above 0: nothing to draw");
+	return status;
 }
 
 /* Every so manieth line of a large table. */
@@ -77,15 +75,16 @@ static batten_status draw_sections(const sheet *s, const batten_hull *hull, doub
                                    const lines_style *style)
 {
 	const double wide = panel_width(s);
-	const double unit = fmin(0.5 * wide / s->half_beam, body_height / (s->z_high - s->z_low));
+	const double unit = fmin(0.5 * wide / s->box.half_beam,
+	                         body_height / (s->box.z_high - s->box.z_low));
 	lines_plan plan = { .frame = { left, top, wide, body_height },
 		                .origin_x = left + 0.5 * wide,
-		                .origin_y = top + body_height + unit * s->z_low,
+		                .origin_y = top + body_height + unit * s->box.z_low,
 		                .up = unit };
 	batten_status status = BATTEN_OK;
 	for (size_t i = 0; i < hull->station_count && status == BATTEN_OK;
 	     i += stride_of(hull->station_count, 25)) {
-		plan.across = hull->x_m[i] < 0.5 * (s->x_low + s->x_high) ? -unit : unit;
+		plan.across = hull->x_m[i] < 0.5 * (s->box.x_low + s->box.x_high) ? -unit : unit;
 		status = lines_draw_line(s->cairo, hull, false, i, &plan, style);
 	}
 	return status;
@@ -95,12 +94,12 @@ static batten_status draw_waterlines(const sheet *s, const batten_hull *hull, do
                                      double top, const lines_style *style)
 {
 	const double wide = panel_width(s);
-	const double across = wide / (s->x_high - s->x_low);
+	const double across = wide / (s->box.x_high - s->box.x_low);
 	const lines_plan plan = { .frame = { left, top, wide, half_height },
-		                      .origin_x = left - across * s->x_low,
+		                      .origin_x = left - across * s->box.x_low,
 		                      .origin_y = top + half_height,
 		                      .across = across,
-		                      .up = half_height / s->half_beam };
+		                      .up = half_height / s->box.half_beam };
 	batten_status status = BATTEN_OK;
 	for (size_t k = 0; k < hull->waterline_count && status == BATTEN_OK;
 	     k += stride_of(hull->waterline_count, 12))
@@ -120,10 +119,10 @@ static void draw_cell(const sheet *s, const batten_hull *hull, const grid_curvat
 			return;
 		sum -= 0.25 * grid->mean_per_m[corners[c]]; /* convex to the water is positive */
 	}
-	const double across = panel_width(s) / (s->x_high - s->x_low);
-	const double up = map_height / (s->z_high - s->z_low);
-	const double x = left + across * (hull->x_m[i] - s->x_low);
-	const double y = top + map_height - up * (hull->z_m[k + 1] - s->z_low);
+	const double across = panel_width(s) / (s->box.x_high - s->box.x_low);
+	const double up = map_height / (s->box.z_high - s->box.z_low);
+	const double x = left + across * (hull->x_m[i] - s->box.x_low);
+	const double y = top + map_height - up * (hull->z_m[k + 1] - s->box.z_low);
 	picture_colour_map_look_up(&s->colours, sum / s->scale_per_m, rgb);
 	cairo_set_source_rgb(s->cairo, rgb[0], rgb[1], rgb[2]);
 	/* A hair larger, so that no line shows between neighbours. */
@@ -210,6 +209,12 @@ static void draw_captions(const sheet *s)
 	char clean[256];
 	paper_clean_text(s->shown->title, clean, sizeof clean);
 	paper_write(s->cairo, &title, clean);
+	char lbp[BATTEN_NUMBER_SIZE], draft[BATTEN_NUMBER_SIZE];
+	(void)snprintf(clean, sizeof clean,
+	               "L %s m, T %s m \u00b7 frame ap-fwd, m \u00b7 one scale for all columns",
+	               batten_number_write(lbp, s->shown->hulls[0]->lbp_m),
+	               batten_number_write(draft, s->shown->hulls[0]->draft_m));
+	write_text(s, 24.0, 68.0, page_width - 48.0, PAPER_LEFT, medium, false, clean);
 }
 
 static void draw_table(const sheet *s)
@@ -260,9 +265,9 @@ batten_status batten_picture_comparison(batten_context *context, const batten_co
 	batten_status status = batten_picture_scale(context, shown->hulls[0], &s.scale_per_m);
 	if (status != BATTEN_OK)
 		return status;
-	take_extent(&s);
-	if (!(s.half_beam > 0.0))
-		return batten_fail(context, BATTEN_INPUT, "no half-breadth is above 0: nothing to draw");
+	status = take_extent(&s);
+	if (status != BATTEN_OK)
+		return status;
 	picture_colour_map_fill(&s.colours);
 	const double height = title_height + body_height + half_height + map_height + 4.0 * gap +
 	                      row_height * (double)shown->row_count + 10.0;

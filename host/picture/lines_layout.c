@@ -26,7 +26,12 @@ bool lines_page_moved(const lines_page *page, size_t node)
 	return fabs(page->after->y_m[node] - page->before->y_m[node]) > least;
 }
 
-static batten_status take_box(const batten_hull *hull, lines_box *box)
+lines_box lines_box_empty(void)
+{
+	return (lines_box){ INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0 };
+}
+
+batten_status lines_box_add(const batten_hull *hull, lines_box *box)
 {
 	for (int kind = 0; kind < 2; kind++) {
 		size_t count = kind ? hull->waterline_count : hull->station_count;
@@ -82,10 +87,10 @@ static lines_plan place_long_plan(const lines_box *box, picture_rectangle frame,
 
 batten_status lines_page_lay_out(lines_page *page)
 {
-	page->box = (lines_box){ INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0 };
-	batten_status status = take_box(page->after, &page->box);
+	page->box = lines_box_empty();
+	batten_status status = lines_box_add(page->after, &page->box);
 	if (status == BATTEN_OK && page->before)
-		status = take_box(page->before, &page->box);
+		status = lines_box_add(page->before, &page->box);
 	if (status != BATTEN_OK)
 		return status;
 	lines_box *box = &page->box;

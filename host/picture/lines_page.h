@@ -29,6 +29,10 @@ extern const paper_ink lines_ink_after, lines_ink_before, lines_ink_grid, lines_
 	lines_ink_moved;
 extern const double lines_moved_part; /* of the half-beam */
 
+/* Nothing, and what a hull's lines add to it, their ends off the table included. Errors: MEMORY. */
+lines_box lines_box_empty(void);
+batten_status lines_box_add(const batten_hull *hull, lines_box *box);
+
 /* Takes the box and places the plans. Errors: MEMORY, INPUT (no point at all). */
 batten_status lines_page_lay_out(lines_page *page);
 batten_status lines_page_draw_plans(const lines_page *page);

@@ -13,8 +13,10 @@ for method in smooth forward-approximation forward-fit inverse search; do
 	for file in faired.csv report.json lines.svg; do
 		[ -s all/$method/$file ] || fail "all/$method/$file is missing"
 	done
+	expect_schema report all/$method/report.json
 done
 expect_json all/compare.json
+expect_schema compare all/compare.json
 [ "$(grep -c '"method"' all/compare.json)" -eq 6 ] || fail "not six columns"
 grep -q '</svg>' all/compare.svg || fail "no whole sheet"
 [ -z "$(find all -name '.*' ! -name .)" ] || fail "something is left behind"
@@ -24,18 +26,25 @@ expect 1 fair "$hull" --method all --vertices 30 --w1 1 --w2 1e4 --out part
 says 'needs 30 points'
 [ ! -e part/forward-fit ] || fail "part/forward-fit is there"
 grep -q '"forward-fit"' part/compare.json || fail "forward-fit is not named"
+expect_schema compare part/compare.json
+sed 's/"cpu_s"/"time"/' all/compare.json >renamed.json
+"$CHECK_SCHEMA" "$DATA/schema/compare.schema.json" renamed.json >.schema &&
+	fail "a renamed member is taken for good"
+grep -q '/columns/0/time: not in the schema' .schema || fail "the renamed member is not named"
 [ -s part/inverse/faired.csv ] || fail "the others are missing"
 
 # Table 7.1 of the thesis, right end 25: within 0.16 % of the printed 7.6176.
 expect 0 curve "$DATA/lines/quadratic.csv" --method search --w1 0.5 --w2 0.5 --json
 cp "$out" search.json
 expect_json search.json
+expect_schema curve search.json
 holds "table 7.1" 'f > 7.6176 && f < 7.6176 * 1.0017' \
 	f="$(sed -n 's/.*"objective": *\([0-9.]*\).*/\1/p' search.json)"
 expect 0 curve "$DATA/lines/npl_waterline.csv" --method forward-fit --vertices 6 \
 	--faired faired.csv
 prints '^faired by forward-fit: '
 expect 0 curve faired.csv
+prints '^NPL round-bilge parent, waterline 0.15 m: 15 points'
 expect 2 curve "$DATA/lines/npl_waterline.csv" --method forward-fit --vertices 2
 says 'at least the order 3'
 expect 2 curve "$DATA/lines/npl_waterline.csv" --method smooth

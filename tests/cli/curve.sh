@@ -7,6 +7,7 @@ lines=$links/lines
 
 expect 0 curve "$lines/quadratic.csv" --json --parameter x --as spline:not-a-knot,lagrange,least-squares:2
 expect_json "$out"
+expect_schema curve "$out"
 cp "$out" three.json
 [ "$(member three.json name)" = 'distorted quadratic' ] || fail 'the line is not named'
 [ "$(grep -c '"as": ' three.json)" -eq 3 ] || fail 'not three representations'
@@ -37,13 +38,18 @@ expect 0 curve "$lines/npl_waterline.csv" --as spline:natural,bspline:4 --out tw
 cmp one.svg two.svg || fail 'the picture differs from run to run'
 printf 'x,y,z\n0,0,0\n1,0,0\n2,1,0.5\n3,1,1\n' >space.csv
 expect 0 curve space.csv --json --out space.svg
-expect_json "$out"
+expect_schema curve "$out"
 prints '"torsion_per_m"'
+for name in tangent normal binormal; do
+	prints "\"$name\""
+done
 prints '"inflections": null'
 [ -s space.svg ] || fail 'no picture of a space curve'
 
 # Units: 1000 mm are 1 m, and a foot is 0.3048 m.
 printf '# unit: mm\n0,0\n1000,0\n' >mm.csv
+expect 0 curve mm.csv
+prints '^mm.csv: 2 points'
 expect 0 curve mm.csv --json
 holds 'mm' 'a == 1' a="$(length "$out")"
 printf '# unit: ft\n0,0\n10,0\n' >ft.csv

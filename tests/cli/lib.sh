@@ -170,6 +170,13 @@ expect_json()
 	json_is_valid "$1" || fail "$1: not one JSON value"
 }
 
+# expect_schema NAME FILE: the file is what data/schema/NAME.schema.json describes.
+expect_schema()
+{
+	"${CHECK_SCHEMA:?the checker of schemas}" "$DATA/schema/$1.schema.json" "$2" >.schema ||
+		fail "$2 is not what $1.schema.json describes: $(head -5 .schema)"
+}
+
 # The table of an offsets file of layout grid without header and comments.
 table_of()
 {
