@@ -10,11 +10,13 @@ static const cli_command command = {
 	.name = "curve",
 	.usage = "LINE.csv [OPTION ...]",
 	.summary = "represent one line, measure how fair it is, compare representations",
-	.example = "  batten curve data/lines/npl_waterline.csv --as spline:natural,bspline:4 \\\n"
-			   "      --out waterline.svg\n"
-			   "  batten curve data/lines/quadratic.csv --method search --w1 0.5 --w2 0.5\n"
-			   "  batten curve data/lines/npl_waterline.csv --method forward-fit --vertices 6 \\\n"
-			   "      --faired faired.csv --out faired.svg\n",
+	.example =
+		"  batten curve data/lines/npl_waterline.csv --as spline:natural,bspline:4 \\\n"
+		"      --out waterline.svg\n"
+		"  batten curve data/lines/quadratic.csv --parameter x --as lagrange --out line.json\n"
+		"  batten curve data/lines/quadratic.csv --method search --w1 0.5 --w2 0.5\n"
+		"  batten curve data/lines/npl_waterline.csv --method forward-fit --vertices 6 \\\n"
+		"      --faired faired.csv --out faired.svg\n",
 	.notes =
 		"LINE.csv: columns x,y or x,y,z. --as takes, separated by commas:\n"
 		"  monomial, lagrange, newton   one polynomial through up to 64 points\n"
@@ -62,8 +64,11 @@ static bool ends_with(const char *text, const char *end)
 }
 
 static batten_status write_out(const curve_request *request, batten_context *context,
-                               const batten_points *points, const curve_answer *answers)
+                               const batten_points *points, const curve_answer *answers,
+                               const curve_fairing *fairing)
 {
+	if (ends_with(request->out, ".json"))
+		return curve_save_json(request, points, answers, fairing);
 	const batten_curve *curves[CURVES_MOST] = { NULL };
 	for (size_t k = 0; k < request->count; k++)
 		curves[k] = answers[k].curve;
@@ -88,7 +93,7 @@ static batten_status answer(const curve_request *request, batten_context *contex
 	for (size_t k = 0; k < request->count && status == BATTEN_OK; k++)
 		status = answer_one(context, points, &request->choices[k], &answers[k]);
 	if (status == BATTEN_OK && request->out)
-		status = write_out(request, context, points, answers);
+		status = write_out(request, context, points, answers, &fairing);
 	if (status == BATTEN_OK && request->common.json)
 		status = curve_print_json(request, points, answers, &fairing);
 	else if (status == BATTEN_OK) {
@@ -104,8 +109,11 @@ static batten_status check_out(const curve_request *request)
 {
 	if (!request->out)
 		return BATTEN_OK;
+	if (ends_with(request->out, ".json"))
+		return BATTEN_OK;
 	if (!ends_with(request->out, ".csv") && !ends_with(request->out, ".svg"))
-		return cli_usage("curve", "--out: found '%s', expected a name that ends in .csv or .svg",
+		return cli_usage("curve",
+		                 "--out: found '%s', expected a name that ends in .csv, .svg or .json",
 		                 request->out);
 	if (ends_with(request->out, ".csv") && request->count > 1)
 		return cli_usage("curve", "--out: a .csv holds one representation, found %zu in --as",
@@ -141,7 +149,8 @@ batten_status cli_curve(int argc, char **argv)
 		{ "w2", CLI_NUMBER, &request.w2, "Y", "search: weight of the sum of squared changes (m2)" },
 		{ "faired", CLI_TEXT, &request.faired, "FILE.csv", "writes the faired points, in metres" },
 		{ "points", CLI_COUNT, &request.points, "N", "points of a .csv (201)" },
-		{ "out", CLI_TEXT, &request.out, "FILE", "sampled points .csv, curvature plot .svg" },
+		{ "out", CLI_TEXT, &request.out, "FILE",
+		  "sampled points .csv, curvature plot .svg, all of --json .json" },
 		{ 0 },
 	};
 	size_t count = 0;

@@ -1,4 +1,4 @@
-/* What batten curve prints: a table, or one JSON object. */
+/* What batten curve prints: a table, or one JSON object, which --out FILE.json keeps. */
 #include "curve_request.h"
 
 #include "json_out.h"
@@ -121,8 +121,9 @@ static json_t *faired(const curve_request *request, const curve_fairing *fairing
 	return object;
 }
 
-batten_status curve_print_json(const curve_request *request, const batten_points *points,
-                               const curve_answer *answers, const curve_fairing *fairing)
+/* All of it; NULL where memory runs out. */
+static json_t *report(const curve_request *request, const batten_points *points,
+                      const curve_answer *answers, const curve_fairing *fairing)
 {
 	json_t *object = json_pack(
 		"{s:s, s:s, s:s, s:s, s:i, s:i}", "batten", batten_version(), "name",
@@ -134,5 +135,17 @@ batten_status curve_print_json(const curve_request *request, const batten_points
 		(void)json_array_append_new(list, representation(points, &answers[k]));
 	(void)json_object_set_new(object, "faired", faired(request, fairing));
 	(void)json_object_set_new(object, "representations", list);
-	return cli_json_print("curve", object);
+	return object;
+}
+
+batten_status curve_print_json(const curve_request *request, const batten_points *points,
+                               const curve_answer *answers, const curve_fairing *fairing)
+{
+	return cli_json_print("curve", report(request, points, answers, fairing));
+}
+
+batten_status curve_save_json(const curve_request *request, const batten_points *points,
+                              const curve_answer *answers, const curve_fairing *fairing)
+{
+	return cli_json_save("curve", report(request, points, answers, fairing), request->out);
 }

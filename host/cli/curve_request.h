@@ -50,5 +50,8 @@ void curve_print_table(const curve_request *request, const batten_points *points
                        const curve_answer *answers);
 batten_status curve_print_json(const curve_request *request, const batten_points *points,
                                const curve_answer *answers, const curve_fairing *fairing);
+/* The same into the file of --out; what went wrong is printed. */
+batten_status curve_save_json(const curve_request *request, const batten_points *points,
+                              const curve_answer *answers, const curve_fairing *fairing);
 
 #endif

@@ -3,7 +3,6 @@
 
 #include "json_out.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -205,25 +204,12 @@ static json_t *comparison_json(const comparison *c, const attempt *attempts)
 	return object;
 }
 
-/* compare.json, at once or not at all. */
 static batten_status write_json(const comparison *c, const attempt *attempts, const char *folder)
 {
-	char making[PATH_MAX], path[PATH_MAX];
-	if (snprintf(making, sizeof making, "%s/.compare.json", folder) >= (int)sizeof making ||
-	    snprintf(path, sizeof path, "%s/compare.json", folder) >= (int)sizeof path)
+	char path[PATH_MAX];
+	if (snprintf(path, sizeof path, "%s/compare.json", folder) >= (int)sizeof path)
 		return cli_usage("fair", "--out: the path is too long");
-	FILE *stream = fopen(making, "wb");
-	batten_status status = stream ? cli_json_write(comparison_json(c, attempts), stream)
-	                              : BATTEN_IO;
-	if (stream && fclose(stream) != 0)
-		status = BATTEN_IO;
-	if (status == BATTEN_OK && rename(making, path) != 0)
-		status = BATTEN_IO;
-	if (status == BATTEN_IO)
-		(void)fprintf(stderr, "batten fair: %s: cannot be written: %s\n", path, strerror(errno));
-	if (status != BATTEN_OK)
-		(void)unlink(making);
-	return status;
+	return cli_json_save("fair", comparison_json(c, attempts), path);
 }
 
 static batten_status write_sheet(const comparison *c, const char *folder)

@@ -1,6 +1,10 @@
 #include "json_out.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <math.h>
+#include <string.h>
+#include <unistd.h>
 
 json_t *cli_json_number(double value)
 {
@@ -30,5 +34,32 @@ batten_status cli_json_print(const char *command, json_t *object)
 	if (status != BATTEN_OK)
 		(void)fprintf(stderr, "batten %s: standard output: %s\n", command,
 		              batten_status_text(status));
+	return status;
+}
+
+batten_status cli_json_save(const char *command, json_t *object, const char *path)
+{
+	char making[PATH_MAX];
+	if (snprintf(making, sizeof making, "%s.part", path) >= (int)sizeof making) {
+		json_decref(object);
+		(void)fprintf(stderr, "batten %s: %.64s...: the path is too long\n", command, path);
+		return BATTEN_IO;
+	}
+	FILE *stream = fopen(making, "wb");
+	batten_status status = BATTEN_IO;
+	if (stream)
+		status = cli_json_write(object, stream);
+	else
+		json_decref(object);
+	if (stream && fclose(stream) != 0)
+		status = BATTEN_IO;
+	if (status == BATTEN_OK && rename(making, path) != 0)
+		status = BATTEN_IO;
+	if (status == BATTEN_OK)
+		return status;
+	(void)fprintf(stderr, "batten %s: %s: %s\n", command, path,
+	              status == BATTEN_IO ? strerror(errno) : batten_status_text(status));
+	if (stream)
+		(void)unlink(making);
 	return status;
 }

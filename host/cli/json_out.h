@@ -17,5 +17,7 @@ void cli_json_measures(json_t *object, const batten_measures *measures);
  * object (memory ran out while it was made) is MEMORY; a failed write is IO. */
 batten_status cli_json_write(json_t *object, FILE *stream);
 batten_status cli_json_print(const char *command, json_t *object);
+/* The same into a file, at once or not at all; what went wrong is printed. */
+batten_status cli_json_save(const char *command, json_t *object, const char *path);
 
 #endif

@@ -16,6 +16,17 @@ for name in deviation_max_m length_m curvature_max_per_m inflections monotone_pi
 	[ "$(grep -c "\"$name\": " three.json)" -eq 3 ] || fail "$name is not there three times"
 done
 
+# --out FILE.json keeps what --json prints, and nothing half-written.
+expect 0 curve "$lines/quadratic.csv" --json --parameter x \
+	--as spline:not-a-knot,lagrange,least-squares:2 --out kept.json
+cmp "$out" kept.json || fail 'the file differs from what is printed'
+expect 6 curve "$lines/quadratic.csv" --out missing/kept.json
+one_line
+says 'missing/kept.json: No such file'
+mkdir folder.json
+expect 6 curve "$lines/quadratic.csv" --out folder.json
+[ ! -e folder.json.part ] || fail 'a half-written file is left'
+
 # The table, and the default.
 expect 0 curve "$lines/quadratic.csv"
 prints '1  spline:natural'

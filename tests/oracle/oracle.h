@@ -120,6 +120,19 @@ typedef enum oracle_ends { ORACLE_NATURAL, ORACLE_NOT_A_KNOT } oracle_ends;
 bool oracle_spline(size_t count, const double *along, const double *value, oracle_ends ends,
                    double at, long double out[3]);
 
+/* What holds at one end of a spline; value: the slope or second derivative given. */
+typedef enum oracle_end { ORACLE_FREE, ORACLE_JOINED, ORACLE_SLOPE, ORACLE_BEND } oracle_end;
+typedef struct oracle_condition {
+	oracle_end end; /* FREE: no second derivative; JOINED: not-a-knot */
+	double value;
+} oracle_condition;
+
+/* The same with a condition of its own at either end. Where a joined end has no point to be joined at
+ * (two points) the third derivative is 0; both joined, as above. */
+bool oracle_spline_mixed(size_t count, const double *along, const double *value,
+                         oracle_condition first, oracle_condition last, double at,
+                         long double out[3]);
+
 /* Its integral from a to b, both within the points; NaN otherwise. */
 long double oracle_spline_integral(size_t count, const double *along, const double *value,
                                    oracle_ends ends, double a, double b);

@@ -53,34 +53,43 @@ static void add_derivative(long double *row, size_t piece, int order, int end, l
 	}
 }
 
-/* The two conditions left open by points, slopes and second derivatives. */
-static void add_ends(long double *matrix, size_t unknowns, size_t row, const double *along,
-                     size_t pieces, oracle_ends ends)
+/* One of the two conditions left open by points, slopes and second derivatives. */
+static void add_end(long double *row, long double *right, const double *along, size_t pieces,
+                    bool is_last, oracle_condition condition)
 {
-	long double first = (long double)along[1] - along[0];
-	long double last = (long double)along[pieces] - along[pieces - 1];
-	long double *one = &matrix[row * unknowns], *two = one + unknowns;
-	if (ends == ORACLE_NATURAL || pieces == 1) {
-		add_derivative(one, 0, 2, 0, first, 1);
-		add_derivative(two, pieces - 1, 2, 1, last, 1);
-		return;
+	size_t piece = is_last ? pieces - 1 : 0;
+	long double length = (long double)along[piece + 1] - along[piece];
+	if (condition.end != ORACLE_JOINED) {
+		*right = condition.end == ORACLE_FREE ? 0 : condition.value;
+		add_derivative(row, piece, condition.end == ORACLE_SLOPE ? 1 : 2, is_last, length, 1);
+	} else if (pieces == 1) {
+		add_derivative(row, piece, 3, 0, length, 1);
+	} else {
+		size_t before = is_last ? pieces - 2 : 0;
+		add_derivative(row, before, 3, 1, (long double)along[before + 1] - along[before], 1);
+		add_derivative(row, before + 1, 3, 0, (long double)along[before + 2] - along[before + 1],
+		               -1);
 	}
-	if (pieces == 2) { /* both conditions are one: let the cubics be parabolas */
-		add_derivative(one, 0, 3, 0, first, 1);
-		add_derivative(two, 1, 3, 0, last, 1);
-		return;
+}
+
+static void add_ends(long double *matrix, long double *right, size_t unknowns, size_t row,
+                     const double *along, size_t pieces, const oracle_condition ends[2])
+{
+	const oracle_condition free_end = { ORACLE_FREE, 0 };
+	bool joined = ends[0].end == ORACLE_JOINED && ends[1].end == ORACLE_JOINED;
+	for (size_t e = 0; e < 2; e++) {
+		long double *here = &matrix[(row + e) * unknowns];
+		if (joined && pieces == 2) /* both conditions are one: let the cubics be parabolas */
+			add_derivative(here, e, 3, 0, (long double)along[e + 1] - along[e], 1);
+		else
+			add_end(here, &right[row + e], along, pieces, e == 1,
+			        joined && pieces == 1 ? free_end : ends[e]);
 	}
-	long double second = (long double)along[2] - along[1];
-	long double before = (long double)along[pieces - 1] - along[pieces - 2];
-	add_derivative(one, 0, 3, 1, first, 1);
-	add_derivative(one, 1, 3, 0, second, -1);
-	add_derivative(two, pieces - 2, 3, 1, before, 1);
-	add_derivative(two, pieces - 1, 3, 0, last, -1);
 }
 
 /* Coefficients, four a piece; NULL on failure. */
 static long double *fit_spline(size_t count, const double *along, const double *value,
-                               oracle_ends ends)
+                               const oracle_condition ends[2])
 {
 	if (count < 2 || count > 500)
 		return NULL;
@@ -102,7 +111,7 @@ static long double *fit_spline(size_t count, const double *along, const double *
 		}
 	}
 	if (ok)
-		add_ends(matrix, unknowns, row, along, pieces, ends);
+		add_ends(matrix, right, unknowns, row, along, pieces, ends);
 	ok = ok && oracle_solve(unknowns, matrix, right);
 	free(matrix);
 	if (!ok) {
@@ -112,9 +121,23 @@ static long double *fit_spline(size_t count, const double *along, const double *
 	return right;
 }
 
+static oracle_condition condition_of(oracle_ends ends)
+{
+	return (oracle_condition){ ends == ORACLE_NATURAL ? ORACLE_FREE : ORACLE_JOINED, 0 };
+}
+
 bool oracle_spline(size_t count, const double *along, const double *value, oracle_ends ends,
                    double at, long double out[3])
 {
+	return oracle_spline_mixed(count, along, value, condition_of(ends), condition_of(ends), at,
+	                           out);
+}
+
+bool oracle_spline_mixed(size_t count, const double *along, const double *value,
+                         oracle_condition first, oracle_condition last, double at,
+                         long double out[3])
+{
+	const oracle_condition ends[2] = { first, last };
 	long double *cubics = fit_spline(count, along, value, ends);
 	if (!cubics)
 		return false;
@@ -134,7 +157,8 @@ bool oracle_spline(size_t count, const double *along, const double *value, oracl
 long double oracle_spline_integral(size_t count, const double *along, const double *value,
                                    oracle_ends ends, double a, double b)
 {
-	long double *cubics = fit_spline(count, along, value, ends);
+	const oracle_condition both[2] = { condition_of(ends), condition_of(ends) };
+	long double *cubics = fit_spline(count, along, value, both);
 	if (!cubics || !(a >= along[0] && a <= b && b <= along[count - 1])) {
 		free(cubics);
 		return nanl("");

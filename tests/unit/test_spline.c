@@ -1,5 +1,6 @@
 /* Cubic splines against closed forms (Letcher 3.5) and hand-computed cases of mixed ends. */
 #include "core/spline.h"
+#include "oracle/oracle.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -254,6 +255,42 @@ static void wrong_arguments(void **state)
 	spline_destroy(&spline);
 }
 
+/* Every pair of conditions against the oracle, which solves for all coefficients at once: values,
+ * slopes and second derivatives within the points, from two points on, at uneven spacing. */
+static void every_pair_of_ends_is_the_oracles(void **state)
+{
+	static const struct {
+		struct spline_condition given;
+		oracle_condition known;
+	} ends[] = {
+		{ { SPLINE_NATURAL, 0 }, { ORACLE_FREE, 0 } },
+		{ { SPLINE_NOT_A_KNOT, 0 }, { ORACLE_JOINED, 0 } },
+		{ { SPLINE_CLAMPED, -1.75 }, { ORACLE_SLOPE, -1.75 } },
+		{ { SPLINE_BENT, 3.5 }, { ORACLE_BEND, 3.5 } },
+	};
+	enum { ENDS = sizeof ends / sizeof ends[0] };
+	static const double y[POINTS] = { 0.3, -0.2, 1.1, 0.9, -2, -1.4, 0.5 };
+	for (size_t count = 2; count <= POINTS; count++)
+		for (size_t pair = 0; pair < (size_t)ENDS * ENDS; pair++) {
+			const size_t a = pair / ENDS, b = pair % ENDS;
+			struct spline spline;
+			assert_int_equal(spline_create_mixed(*state, count, uneven, y, ends[a].given,
+			                                     ends[b].given, &spline),
+			                 BATTEN_OK);
+			for (int k = 0; k <= 40; k++) {
+				const double at = uneven[0] + k / 40.0 * (uneven[count - 1] - uneven[0]);
+				long double known[3];
+				assert_true(
+					oracle_spline_mixed(count, uneven, y, ends[a].known, ends[b].known, at, known));
+				/* The second derivatives reach 60 where spacings are 0.1. */
+				assert_close(spline_value(&spline, at), (double)known[0], 1e-13);
+				assert_close(spline_slope(&spline, at), (double)known[1], 1e-12);
+				assert_close(spline_second(&spline, at), (double)known[2], 1e-11);
+			}
+			spline_destroy(&spline);
+		}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -265,6 +302,8 @@ int main(void)
 		cmocka_unit_test_setup_teardown(mixed_ends_of_two_points, make_context, end_context),
 		cmocka_unit_test_setup_teardown(beyond_mixed_ends, make_context, end_context),
 		cmocka_unit_test_setup_teardown(wrong_arguments, make_context, end_context),
+		cmocka_unit_test_setup_teardown(every_pair_of_ends_is_the_oracles, make_context,
+		                                end_context),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
