@@ -23,6 +23,7 @@ static const cli_command command = {
 		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n"
+		"  batten fair data/hulls/npl_parent.csv --keep volume_m3=0.01%,lcb_pct_lbp_fwd=0.01\n"
 		"  batten fair data/hulls/npl_parent.csv --method all --out compared\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
@@ -302,6 +303,9 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "lock", CLI_TEXT, &request->lock, "LIST",
 		  "station:X,waterline:Z,point:X@Z: do not move these (unit and frame of the file); "
 		  "of a net also row:K,column:K,pole:COLUMN@ROW,edge:NAME" },
+		{ "keep", CLI_TEXT, &request->keep, "LIST",
+		  "volume_m3=0.1%,lcb_pct_lbp_fwd=0.05: keep these measures of the smoothed hull, at its draft, "
+		  "so close" },
 		{ "lower", CLI_TEXT, &request->lower_path, "FILE", "lower offsets on the same table" },
 		{ "upper", CLI_TEXT, &request->upper_path, "FILE", "upper offsets on the same table" },
 		{ "no-smooth", CLI_FLAG, &request->no_smooth, NULL, "leave gross errors as they are" },

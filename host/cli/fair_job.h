@@ -12,7 +12,7 @@ typedef struct fair_request {
 	cli_common common;
 	const char *hull_path, *out, *method, *search, *variables, *fairness;
 	const char *front; /* NULL: not given */
-	const char *max_distance, *lock, *lower_path, *upper_path;
+	const char *max_distance, *lock, *keep, *lower_path, *upper_path;
 	const char *net, *order, *tangents, *rounded; /* NULL: not given */
 	double w1, w2, longitudinal, transverse;      /* NaN: not given */
 	const char *restore;                          /* NULL: not given */
@@ -37,6 +37,7 @@ typedef struct fair_state {
 typedef struct fair_locks {
 	batten_lock places[FAIR_LOCK_LIMIT];
 	batten_net_lock poles[FAIR_LOCK_LIMIT];
+	batten_keep keep[BATTEN_KEEP_LIMIT];
 } fair_locks;
 
 /* One fairing with everything the report says. */

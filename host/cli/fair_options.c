@@ -118,6 +118,44 @@ static batten_status read_locks(const char *text, const batten_hull *hull,
 	return BATTEN_OK;
 }
 
+/* A measure's name and how far it may go: "volume_m3=0.1%" or "lcb_pct_lbp_fwd=0.05". */
+static batten_status read_keep(const char *text, size_t length, batten_keep *keep)
+{
+	const char *equals = memchr(text, '=', length);
+	const size_t name = equals ? (size_t)(equals - text) : length;
+	size_t q = 0;
+	while (q < BATTEN_HYDROSTATICS_COUNT && (strlen(batten_hydrostatics_name(q)) != name ||
+	                                         strncmp(text, batten_hydrostatics_name(q), name) != 0))
+		q++;
+	char *end = NULL;
+	const double value = equals ? strtod(equals + 1, &end) : NAN;
+	const bool is_part = equals && *end == '%';
+	if (q == BATTEN_HYDROSTATICS_COUNT || !equals || end == equals + 1 ||
+	    end + is_part != text + length || !(value > 0.0) || !isfinite(value))
+		return cli_usage("fair",
+		                 "--keep: found '%.*s', expected a measure's name and a tolerance above 0, "
+		                 "e.g. volume_m3=0.1%% or lcb_pct_lbp_fwd=0.05",
+		                 (int)length, text);
+	*keep = (batten_keep){ q, is_part ? value / 100.0 : value, is_part };
+	return BATTEN_OK;
+}
+
+static batten_status read_keeps(const char *text, batten_fair_options *options, fair_locks *locks)
+{
+	while (*text) {
+		const size_t length = strcspn(text, ",");
+		if (options->keep_count == BATTEN_KEEP_LIMIT)
+			return cli_usage("fair", "--keep: at most %d measures are expected", BATTEN_KEEP_LIMIT);
+		const batten_status status = read_keep(text, length, &locks->keep[options->keep_count++]);
+		if (status != BATTEN_OK)
+			return status;
+		text += length;
+		text += *text == ',';
+	}
+	options->keep = locks->keep;
+	return BATTEN_OK;
+}
+
 /* The textbook search takes hundreds to thousands of sweeps. */
 enum { TEXTBOOK_ITERATIONS = 20000 };
 
@@ -172,6 +210,8 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 		status = read_distance(request->max_distance, options);
 	if (status == BATTEN_OK && request->lock)
 		status = read_locks(request->lock, hull, options, locks);
+	if (status == BATTEN_OK && request->keep)
+		status = read_keeps(request->keep, options, locks);
 	options->locks = locks->places;
 	options->net_locks = locks->poles;
 	return status;

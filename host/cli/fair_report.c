@@ -120,6 +120,30 @@ static json_t *device_json(int device)
 	return device == BATTEN_DEVICE_REFERENCE ? json_string("reference") : json_integer(device);
 }
 
+/* Null where nothing was to be kept. */
+static json_t *kept_json(const batten_fairing *fairing)
+{
+	size_t kept_count = 0;
+	unsigned rounds = 0;
+	const batten_kept *kept = batten_fairing_kept(fairing, &kept_count, &rounds);
+	if (kept_count == 0)
+		return json_null();
+	json_t *list = json_array();
+	for (size_t i = 0; i < kept_count; i++) {
+		json_t *object = json_object();
+		set(object, "measure", json_string(batten_hydrostatics_name(kept[i].quantity)));
+		set(object, "wanted", number(kept[i].wanted));
+		set(object, "tolerance", number(kept[i].tolerance));
+		set(object, "value", number(kept[i].value));
+		set(object, "multiplier", number(kept[i].multiplier));
+		(void)json_array_append_new(list, object);
+	}
+	json_t *object = json_object();
+	set(object, "rounds", count(rounds));
+	set(object, "measures", list);
+	return object;
+}
+
 /* What is of the search alone. */
 static void set_search(json_t *object, const fair_job *job)
 {
@@ -138,6 +162,7 @@ static void set_search(json_t *object, const fair_job *job)
 	set(object, "max_distance_m", number(facts.max_distance_m));
 	set(object, "upper_half_beams", number(1.2));
 	set(object, "lock", path_json(request->lock));
+	set(object, "kept", kept_json(job->fairing));
 	set(object, "lower", path_json(request->lower_path));
 	set(object, "upper", path_json(request->upper_path));
 	set(object, "fix_tangent", path_json(request->tangents));

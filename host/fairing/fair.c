@@ -2,6 +2,7 @@
 #include "fairing/box.h"
 #include "fairing/fairing.h"
 #include "fairing/gross_errors.h"
+#include "fairing/kept.h"
 #include "fairing/noise.h"
 
 #include <math.h>
@@ -69,8 +70,10 @@ static batten_status check_options(batten_context *context, const batten_fair_op
 		return batten_fail(context, BATTEN_USAGE,
 		                   "weights w1 = %g, w2 = %g: 0 to 1e100, not both 0, are expected",
 		                   options->w1, options->w2);
-	const batten_status status = fair_pass_check(context, options);
-	return status == BATTEN_OK ? check_variables(context, options) : status;
+	batten_status status = fair_pass_check(context, options);
+	if (status == BATTEN_OK)
+		status = check_variables(context, options);
+	return status == BATTEN_OK ? fairing_kept_check(context, options) : status;
 }
 
 /* A faired table must not pass for the one it came from. */

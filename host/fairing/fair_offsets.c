@@ -2,6 +2,7 @@
 #include "fairing/box.h"
 #include "fairing/discrepancy.h"
 #include "fairing/fairing.h"
+#include "fairing/kept.h"
 
 #include <math.h>
 
@@ -30,7 +31,7 @@ static size_t choose(const batten_fairing *fairing, const fairing_box *box, cons
 	return discrepancy_choose(count, changes, fairing->facts.noise_m);
 }
 
-static void keep(batten_fairing *fairing, const fairing_box *box, const double *y)
+static void take(batten_fairing *fairing, const fairing_box *box, const double *y)
 {
 	batten_hull *faired = fairing->faired;
 	const size_t nodes = hull_node_count(faired);
@@ -44,6 +45,41 @@ static void keep(batten_fairing *fairing, const fairing_box *box, const double *
 	}
 	fairing->facts.variable_count = box->variable_count;
 	fairing->facts.rms_change_m = rms_change(fairing->smoothed, box, y);
+}
+
+/* Of the search that is taken: what it is to keep, its certificate, its end. Objectives are those of the
+ * problem as it was, without multipliers. */
+static batten_status conclude(batten_fairing *fairing, const batten_fair_options *options,
+                              const fairing_box *box, const batten_search_options *search,
+                              batten_search_problem problem, double *y,
+                              batten_search_result *result)
+{
+	batten_context *context = fairing->context;
+	const batten_hull *hull = fairing->smoothed;
+	const batten_grid grid = { hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
+	const batten_search_problem plain = problem;
+	const double objective_start = result->objective_start;
+	double *target = NULL;
+	batten_status status = BATTEN_OK;
+	if (options->keep_count > 0) {
+		target = batten_allocate(context, hull_node_count(hull), sizeof *target);
+		status = target ? fairing_keep(fairing, options, box, search, target, &problem, y, result)
+		                : BATTEN_MEMORY;
+	}
+	batten_certificate *certificate = &fairing->certificate;
+	if (status == BATTEN_OK)
+		status = batten_search_certify_batch(context, &grid, 1, &problem, search, y, certificate);
+	if (status == BATTEN_OK && problem.target_m != plain.target_m) {
+		batten_certificate of_plain;
+		status = batten_search_certify_batch(context, &grid, 1, &plain, search, y, &of_plain);
+		certificate->gap_estimate *= certificate->objective / of_plain.objective;
+		certificate->objective = of_plain.objective;
+		result->objective_start = objective_start;
+		result->objective_end = of_plain.objective;
+	}
+	fairing->certified = status == BATTEN_OK;
+	batten_release(context, target);
+	return status;
 }
 
 static batten_status search(batten_fairing *fairing, const batten_fair_options *options,
@@ -68,16 +104,15 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	                                           results, &fairing->run);
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
-		const batten_status judged = batten_search_certify_batch(
-			context, &grid, 1, &problems[chosen], &chosen_search, y + chosen * nodes,
-			&fairing->certificate);
-		fairing->certified = judged == BATTEN_OK;
-		if (judged != BATTEN_OK)
-			status = judged;
+		const batten_status concluded = conclude(fairing, options, box, &chosen_search,
+		                                         problems[chosen], y + chosen * nodes,
+		                                         &results[chosen]);
+		if (concluded != BATTEN_OK)
+			status = concluded;
 		fairing->result = results[chosen];
 		fairing->facts.w1 = problems[chosen].w1;
 		fairing->facts.w2 = problems[chosen].w2;
-		keep(fairing, box, y + chosen * nodes);
+		take(fairing, box, y + chosen * nodes);
 	}
 	batten_release(context, y);
 	return status;

@@ -61,6 +61,15 @@ batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing)
 	return fairing->facts;
 }
 
+const batten_kept *batten_fairing_kept(const batten_fairing *fairing, size_t *count,
+                                       unsigned *rounds)
+{
+	*count = fairing->kept_count;
+	if (rounds)
+		*rounds = fairing->kept_rounds;
+	return fairing->kept;
+}
+
 const batten_surface *batten_fairing_fitted_surface(const batten_fairing *fairing)
 {
 	return fairing->fitted_surface;

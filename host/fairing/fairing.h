@@ -16,6 +16,9 @@ struct batten_fairing {
 	batten_certificate certificate; /* of result */
 	batten_run run;
 	batten_fairing_facts facts;
+	batten_kept kept[BATTEN_KEEP_LIMIT];
+	size_t kept_count;
+	unsigned kept_rounds;
 	batten_surface *fitted_surface, *faired_surface; /* NULL with offsets */
 	batten_fairing_net net;
 	batten_fairing_row *rows; /* of forward and inverse methods */

@@ -9,6 +9,8 @@ enum { POINTS_MOST = 4096 };
 static batten_status check(batten_context *context, const batten_fair_options *options, double low,
                            double high, size_t count)
 {
+	if (options->keep_count > 0)
+		return batten_fail(context, BATTEN_USAGE, "a front keeps no measures");
 	if (options->variables != BATTEN_VARIABLES_OFFSETS)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "a front is one of offsets: --variables offsets was expected");

@@ -1705,6 +1705,15 @@ typedef enum batten_restore {
 	BATTEN_RESTORE_CP_LCB,
 } batten_restore;
 
+/* A measure of the hull at its draft, in the order of batten_hydrostatics, that the search over offsets
+ * keeps where it is on the smoothed hull. */
+typedef struct batten_keep {
+	size_t quantity;  /* below BATTEN_HYDROSTATICS_COUNT */
+	double tolerance; /* either way, above 0, in the unit of the measure */
+	bool is_part;     /* tolerance is a part of the measure instead */
+} batten_keep;
+enum { BATTEN_KEEP_LIMIT = 8 };
+
 typedef struct batten_fair_options {
 	size_t struct_size;
 	batten_fair_method method; /* BATTEN_METHOD_SEARCH */
@@ -1725,8 +1734,12 @@ typedef struct batten_fair_options {
 	const batten_lock *locks; /* borrowed for the call */
 	size_t lock_count;
 	const batten_hull *lower, *upper; /* bounds on the same table, or NULL; of OFFSETS only */
-	batten_variables variables;       /* BATTEN_VARIABLES_OFFSETS */
-	batten_fairness fairness;         /* of both, in place of search.fairness; no VARIATION with
+	/* Measures to keep, borrowed for the call; of OFFSETS, w2 above 0. The weight is chosen without
+	 * them. */
+	const batten_keep *keep;
+	size_t keep_count;          /* at most BATTEN_KEEP_LIMIT */
+	batten_variables variables; /* BATTEN_VARIABLES_OFFSETS */
+	batten_fairness fairness;   /* of both, in place of search.fairness; no VARIATION with
 	                                     OFFSETS, no weights of directions with NET */
 	/* The rest is of NET only. */
 	batten_fit_options fit;           /* counts 0: chosen from the table; stiffness 1e-3 */
@@ -1744,7 +1757,7 @@ typedef struct batten_fairing batten_fairing;
  * inverse method run on the C path: a single hull is done there before a kernel is found. Returns
  * INCOMPLETE when the search met its iteration limit. Errors: USAGE (a lock or bound that is not on the
  * table or the net, options of other methods or variables), INPUT (nothing to fair, no surface to fit,
- * also as batten_pass_create), DEVICE, KERNEL, MEMORY. */
+ * measures that cannot be kept, also as batten_pass_create), DEVICE, KERNEL, MEMORY. */
 BATTEN_API batten_status batten_hull_fair(batten_context *context, const batten_hull *hull,
                                           const batten_fair_options *options, batten_fairing **out);
 BATTEN_API void batten_fairing_destroy(batten_fairing *fairing);
@@ -1795,6 +1808,18 @@ typedef struct batten_fairing_facts {
 	size_t filled_count;   /* '?' cells */
 } batten_fairing_facts;
 BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fairing);
+
+/* What became of a measure to keep. */
+typedef struct batten_kept {
+	size_t quantity;          /* in the order of batten_hydrostatics */
+	double wanted, tolerance; /* of the smoothed hull; in the unit of the measure */
+	double value;             /* of the faired hull */
+	double multiplier; /* what a unit of it costs, in the unit of the objective; 0: nothing had to
+	                             be done for it */
+} batten_kept;
+/* In the order of the options. rounds (may be NULL) gets how many searches came after the first. */
+BATTEN_API const batten_kept *batten_fairing_kept(const batten_fairing *fairing, size_t *count,
+                                                  unsigned *rounds);
 
 /* The surface before and after; NULL with OFFSETS. */
 BATTEN_API const batten_surface *batten_fairing_fitted_surface(const batten_fairing *fairing);

@@ -47,6 +47,30 @@ done
 [ "$(member out/report.json method lock)" = station:4.8,waterline:1,point:8@0.47368421052631576 ] ||
 	fail 'the locks are not in the report'
 
+# --keep: measures of the hull stay within their tolerances, to the same bit on the C path.
+keep=volume_m3=0.01%,lcb_pct_lbp_fwd=0.0005
+soft="--w1 1 --w2 400 --max-distance 2%"
+expect 0 fair "$hull" $soft --out free
+expect 0 fair "$hull" $soft --keep $keep --out out
+expect 0 fair "$hull" $soft --keep $keep --device reference --out known
+cmp out/faired.csv known/faired.csv
+for name in volume_m3:1e-4*a lcb_pct_lbp_fwd:0.0005; do
+	old=$(member out/report.json smoothed ${name%:*})
+	holds "${name%:*} kept" "b - a <= (${name#*:}) * (1 + 1e-9) && a - b <= (${name#*:}) * (1 + 1e-9)" \
+		a="$old" b="$(member out/report.json after ${name%:*})"
+done
+holds 'the volume would not have stayed' 'b - a > 1e-4 * a || a - b > 1e-4 * a' \
+	a="$(member free/report.json smoothed volume_m3)" b="$(member free/report.json after volume_m3)"
+holds 'what it costs' 'c > f' c="$(member out/report.json search objective_after)" \
+	f="$(member free/report.json search objective_after)"
+grep -q '"measure": "volume_m3"' out/report.json || fail 'what was kept is not in the report'
+expect_json out/report.json
+for bad in volume=1% volume_m3 volume_m3= volume_m3=0 volume_m3=1x volume_m3=-1%; do
+	expect 2 fair "$hull" --keep $bad --out out
+done
+expect 2 fair "$hull" --keep volume_m3=1% --variables net --out out
+expect 2 fair "$hull" --keep volume_m3=1% --front 1:1e3:3 --out out
+
 # scaled FACTOR: the hull with every half-breadth times this.
 scaled()
 {
