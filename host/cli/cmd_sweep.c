@@ -70,16 +70,16 @@ static void print_line(struct request *request, const batten_sweep_progress *pro
 static json_t *progress_json(const batten_sweep_progress *progress)
 {
 	return json_pack(
-		"{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:s}", "first",
+		"{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:s}", "first",
 		(json_int_t)progress->first, "end", (json_int_t)progress->end, "stored",
-		(json_int_t)progress->stored, "stored_before", (json_int_t)progress->stored_before,
-		"not_converged", (json_int_t)progress->not_converged, "rejected",
-		(json_int_t)progress->rejected, "failed", (json_int_t)progress->failed, "seconds",
-		progress->seconds, "vary_s", progress->vary_s, "fair_s", progress->fair_s, "measure_s",
-		progress->measure_s, "store_s", progress->store_s, "device", progress->device);
+		(json_int_t)progress->stored, "stored_before", (json_int_t)progress->stored_before, "begun",
+		(json_int_t)progress->begun, "not_converged", (json_int_t)progress->not_converged,
+		"rejected", (json_int_t)progress->rejected, "failed", (json_int_t)progress->failed,
+		"seconds", progress->seconds, "vary_s", progress->vary_s, "fair_s", progress->fair_s,
+		"measure_s", progress->measure_s, "store_s", progress->store_s, "device", progress->device);
 }
 
-/* One line a block; a log that cannot be written does not end the sweep. */
+/* One line a call; a log that cannot be written does not end the sweep. */
 static void write_log(struct request *request, const batten_sweep_progress *progress)
 {
 	json_t *object = progress_json(progress);
@@ -146,8 +146,10 @@ static batten_status parse(int argc, char **argv, struct request *request, bool 
 		{ "resume", CLI_FLAG, &chosen->resume, NULL, "go on with a database that is there" },
 		{ "shard", CLI_TEXT, &request->shard, "I/N", "part I of N of the designs, from 1" },
 		{ "yes", CLI_FLAG, &chosen->large, NULL, "more than ten million designs are meant" },
-		{ "log", CLI_TEXT, &request->log, "FILE", "a line of JSON a block is added to it" },
-		{ "block", CLI_COUNT, &request->block, "N", "designs computed and stored at a time" },
+		{ "log", CLI_TEXT, &request->log, "FILE",
+		  "a line of JSON is added to it for each part begun or stored" },
+		{ "block", CLI_COUNT, &request->block, "N",
+		  "designs under way at a time: what a kill repeats at most" },
 		{ "journal", CLI_TEXT, &request->journal, "KIND",
 		  "of SQLite: auto, wal, rollback (auto: rollback on network file systems)" },
 		{ "device", CLI_DEVICE, &chosen->device, "DEVICE", "auto, reference or an index" },

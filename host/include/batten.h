@@ -1872,9 +1872,10 @@ typedef enum batten_sweep_journal {
 typedef struct batten_sweep_progress {
 	uint64_t first, end; /* the shard's designs have the numbers first to end - 1 */
 	uint64_t stored, not_converged, rejected, failed;
-	uint64_t stored_before;                    /* by earlier runs */
-	double seconds;                            /* wall time of this run */
-	double vary_s, fair_s, measure_s, store_s; /* of it; storing goes on beside the others */
+	uint64_t stored_before; /* by earlier runs */
+	uint64_t begun;         /* designs from first to begun - 1 are stored or under way */
+	double seconds;         /* wall time of this run */
+	double vary_s, fair_s, measure_s, store_s; /* in each stage; they go on beside each other */
 	char device[128];                          /* what searched, "" before the first block */
 } batten_sweep_progress;
 
@@ -1886,9 +1887,11 @@ typedef struct batten_sweep_options {
 	bool resume; /* go on with a database that is there; without one, begin */
 	bool large;  /* more than BATTEN_SWEEP_LARGE designs are meant */
 	batten_sweep_journal journal;
-	size_t block; /* designs a stage works on and a transaction stores, 1..65536; 0 chooses */
-	/* Called between blocks from the thread of the call; either may be NULL. stop returning true
-	 * ends the sweep when what was computed is stored. */
+	/* Designs under way at a time, 1..65536, computed and stored in parts: what a kill repeats at most.
+	 * 0 chooses. */
+	size_t block;
+	/* Called from the thread of the call before a part is begun and when one is stored; either may be
+	 * NULL. stop returning true ends the sweep when what is under way is stored. */
 	void (*progress)(const batten_sweep_progress *progress, void *user);
 	bool (*stop)(void *user);
 	void *user;
@@ -1898,10 +1901,10 @@ BATTEN_API void batten_sweep_options_default(batten_sweep_options *options);
 #define BATTEN_SWEEP_LARGE 10000000u
 
 /* Runs the plan of a JSON file (data/schema/plan.schema.json) into an SQLite database
- * (host/sweep/README.md): vary, fair, measure, store, in blocks. The plan is checked before anything is
- * made. Design i depends on the plan, its seed and i only: a database that was cut short at any moment
+ * (host/sweep/README.md): vary, fair, measure, store, beside each other. The plan is checked before
+ * anything is made. Design i depends on the plan, its seed and i only: a database that was cut short at any moment
  * and resumed holds the same rows as one that was not, and so do the shards of a sweep together. At
- * most two blocks are computed again. out may be NULL.
+ * most one block is computed again. out may be NULL.
  * Returns INCOMPLETE when a design failed or did not converge, INTERRUPTED when stop said so. Errors:
  * USAGE (options, a database that is there, more than BATTEN_SWEEP_LARGE designs without `large`), INPUT
  * (the plan, its files; resume: a database of another plan, shard, schema or version), IO, DEVICE,

@@ -1,12 +1,19 @@
-/* batten_sweep_run: blocks of designs through the stages, and into the database while the next block is
- * computed. */
-#include "sweep/stages.h"
+/* batten_sweep_run: designs through the pipeline, and into the database while the next are computed. */
+#include "sweep/pipeline.h"
 #include "sweep/store.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { BLOCK_DEFAULT = 256, BLOCK_ON_DEVICE = 4096, BLOCK_MOST = 65536 };
+/* Designs under way at a time, and bytes of half-breadths that are worked at once: a design has about
+ * this many arrays of them in its stages. */
+enum {
+	BLOCK_DEFAULT = 1536,
+	BLOCK_ON_DEVICE = 12288,
+	BLOCK_MOST = 65536,
+	BLOCK_BYTES = 256 << 20,
+	ARRAYS_A_DESIGN = 24
+};
 
 void batten_sweep_options_default(batten_sweep_options *options)
 {
@@ -15,36 +22,30 @@ void batten_sweep_options_default(batten_sweep_options *options)
 	};
 }
 
-/* Storing a block, in a thread of its own. */
-struct writer {
-	sweep_store *store;
-	sweep_block *block; /* NULL: idle */
-	pthread_t thread;
-	bool in_thread;
-	batten_status status;
-	double seconds; /* spent in storing */
-};
-
 struct sweep {
 	const sweep_plan *plan;
 	batten_sweep_options options;
-	sweep_machine machine;
 	sweep_store store;
-	sweep_block blocks[2]; /* one is computed while the other is stored */
-	struct writer writer;
+	sweep_pipeline pipeline;
 	batten_sweep_progress progress;
 	double begun;
 };
 
-/* ---- storing beside computing ---- */
+/* ---- designs ---- */
 
-static void *write_block(void *argument)
+static void tell(struct sweep *sweep)
 {
-	struct writer *writer = argument;
-	const double begun = batten_wall_seconds();
-	writer->status = sweep_store_write(writer->store, writer->block);
-	writer->seconds += batten_wall_seconds() - begun;
-	return NULL;
+	batten_sweep_progress *progress = &sweep->progress;
+	sweep_pipeline *pipeline = &sweep->pipeline;
+	progress->seconds = batten_wall_seconds() - sweep->begun;
+	(void)pthread_mutex_lock(&pipeline->lock);
+	progress->vary_s = pipeline->seconds.vary;
+	progress->fair_s = pipeline->seconds.fair;
+	progress->measure_s = pipeline->seconds.measure;
+	memcpy(progress->device, pipeline->device, sizeof progress->device);
+	(void)pthread_mutex_unlock(&pipeline->lock);
+	if (sweep->options.progress)
+		sweep->options.progress(progress, sweep->options.user);
 }
 
 static void count_block(struct sweep *sweep, const sweep_block *block)
@@ -60,60 +61,35 @@ static void count_block(struct sweep *sweep, const sweep_block *block)
 	progress->stored += block->count;
 }
 
-/* Waits until the block that is being stored is, and tells. */
-static batten_status wait_for_writer(struct sweep *sweep)
+/* Stores the oldest part that is under way. */
+static batten_status store_oldest(struct sweep *sweep)
 {
-	struct writer *writer = &sweep->writer;
-	if (!writer->block)
-		return BATTEN_OK;
-	if (writer->in_thread)
-		(void)pthread_join(writer->thread, NULL);
-	if (writer->status == BATTEN_OK)
-		count_block(sweep, writer->block);
-	writer->block = NULL;
-	batten_sweep_progress *progress = &sweep->progress;
-	progress->store_s = writer->seconds;
-	progress->seconds = batten_wall_seconds() - sweep->begun;
-	(void)snprintf(progress->device, sizeof progress->device, "%s", sweep->machine.run.device);
-	if (writer->status == BATTEN_OK && sweep->options.progress)
-		sweep->options.progress(progress, sweep->options.user);
-	return writer->status;
-}
-
-static batten_status hand_over(struct sweep *sweep, sweep_block *block)
-{
-	const batten_status status = wait_for_writer(sweep);
+	sweep_block *block = NULL;
+	batten_status status = sweep_pipeline_wait(&sweep->pipeline, &block);
 	if (status != BATTEN_OK)
 		return status;
-	struct writer *writer = &sweep->writer;
-	writer->store = &sweep->store;
-	writer->block = block;
-	writer->in_thread = pthread_create(&writer->thread, NULL, write_block, writer) == 0;
-	if (!writer->in_thread)
-		(void)write_block(writer);
-	return BATTEN_OK;
-}
-
-/* ---- computing ---- */
-
-static batten_status timed(batten_status (*stage)(sweep_machine *, sweep_block *),
-                           struct sweep *sweep, sweep_block *block, double *seconds)
-{
 	const double begun = batten_wall_seconds();
-	const batten_status status = stage(&sweep->machine, block);
-	*seconds += batten_wall_seconds() - begun;
+	status = sweep_store_write(&sweep->store, block);
+	sweep->progress.store_s += batten_wall_seconds() - begun;
+	if (status == BATTEN_OK) {
+		count_block(sweep, block);
+		tell(sweep);
+	}
+	sweep_pipeline_drop(&sweep->pipeline);
 	return status;
 }
 
-static batten_status compute(struct sweep *sweep, sweep_block *block)
+static void begin_part(struct sweep *sweep)
 {
-	batten_sweep_progress *progress = &sweep->progress;
-	batten_status status = timed(sweep_stage_vary, sweep, block, &progress->vary_s);
-	if (status == BATTEN_OK && sweep->plan->fairs)
-		status = timed(sweep_stage_fair, sweep, block, &progress->fair_s);
-	if (status == BATTEN_OK)
-		status = timed(sweep_stage_measure, sweep, block, &progress->measure_s);
-	return status;
+	sweep_pipeline *pipeline = &sweep->pipeline;
+	const size_t part = sweep_pipeline_part(pipeline);
+	const uint64_t left = sweep->store.shard.end - sweep->progress.begun;
+	const size_t count = left < part ? (size_t)left : part;
+	const uint64_t first = sweep->progress.begun;
+	/* Told before the work is begun: what a kill may lose is never more than was told. */
+	sweep->progress.begun += count;
+	tell(sweep);
+	sweep_pipeline_begin(pipeline, first, count);
 }
 
 static bool is_stopped(const struct sweep *sweep)
@@ -121,24 +97,21 @@ static bool is_stopped(const struct sweep *sweep)
 	return sweep->options.stop && sweep->options.stop(sweep->options.user);
 }
 
-static batten_status run_blocks(struct sweep *sweep)
+static batten_status run_parts(struct sweep *sweep)
 {
 	const uint64_t end = sweep->store.shard.end;
-	uint64_t next = sweep->store.next;
 	batten_status status = BATTEN_OK;
-	for (size_t b = 0; next < end && status == BATTEN_OK && !is_stopped(sweep); b = 1 - b) {
-		sweep_block *block = &sweep->blocks[b];
-		const uint64_t left = end - next;
-		sweep_block_begin(block, next, left < block->capacity ? (size_t)left : block->capacity);
-		status = compute(sweep, block);
-		if (status == BATTEN_OK)
-			status = hand_over(sweep, block);
-		next += block->count;
+	bool stopped = false;
+	sweep->progress.begun = sweep->store.next;
+	while (status == BATTEN_OK) {
+		while (sweep_pipeline_has_room(&sweep->pipeline) && sweep->progress.begun < end &&
+		       !(stopped = stopped || is_stopped(sweep)))
+			begin_part(sweep);
+		/* What is under way at a stop is stored all the same. */
+		if (!sweep_pipeline_is_busy(&sweep->pipeline))
+			break;
+		status = store_oldest(sweep);
 	}
-	/* What was computed before an error or a stop is stored all the same. */
-	const batten_status stored = wait_for_writer(sweep);
-	if (status == BATTEN_OK)
-		status = stored;
 	if (status == BATTEN_OK && sweep->store.next < end)
 		status = batten_fail(sweep->plan->context, BATTEN_INTERRUPTED,
 		                     "%s: stopped with %llu of %llu designs stored",
@@ -177,7 +150,7 @@ static batten_status check_size(const sweep_plan *plan, const batten_sweep_optio
 		(unsigned long long)plan->sampling.count, BATTEN_SWEEP_LARGE);
 }
 
-/* Designs of a block: enough to fill what computes, few enough to show progress. */
+/* Designs under way at a time: enough to fill what computes, few enough to show progress. */
 static size_t choose_block(const struct sweep *sweep)
 {
 	batten_context *context = sweep->plan->context;
@@ -191,7 +164,11 @@ static size_t choose_block(const struct sweep *sweep)
 		                       batten_device_describe(context, (size_t)index, &device) ==
 		                           BATTEN_OK &&
 		                       !device.is_cpu;
+		const size_t bytes = hull_node_count(sweep->plan->parent) * ARRAYS_A_DESIGN *
+		                     sizeof(double);
+		const size_t most = BLOCK_BYTES / bytes > 0 ? BLOCK_BYTES / bytes : 1;
 		block = on_device ? BLOCK_ON_DEVICE : BLOCK_DEFAULT;
+		block = block < most ? block : most;
 	}
 	return block < designs ? block : designs > 0 ? (size_t)designs : 1;
 }
@@ -228,7 +205,7 @@ static batten_status count_stored(struct sweep *sweep)
 static batten_status end_run(struct sweep *sweep, batten_status status)
 {
 	sweep->progress.seconds = batten_wall_seconds() - sweep->begun;
-	const store_run run = { .device = sweep->machine.run.device,
+	const store_run run = { .device = sweep->progress.device,
 		                    .exit = batten_status_text(status),
 		                    .threads = sweep->plan->context->options.threads,
 		                    .seconds = sweep->progress.seconds,
@@ -247,39 +224,31 @@ static batten_status end_run(struct sweep *sweep, batten_status status)
 
 static batten_status run_opened(struct sweep *sweep)
 {
-	const size_t block = choose_block(sweep);
 	batten_status status = count_stored(sweep);
-	for (size_t b = 0; b < 2 && status == BATTEN_OK; b++)
-		status = sweep_block_create(sweep->plan, block, &sweep->blocks[b]);
 	if (status == BATTEN_OK)
-		status = run_blocks(sweep);
+		status = sweep_pipeline_create(sweep->plan, sweep->options.device, choose_block(sweep),
+		                               &sweep->pipeline);
+	if (status == BATTEN_OK)
+		status = run_parts(sweep);
+	sweep_pipeline_destroy(&sweep->pipeline);
 	if (status == BATTEN_OK)
 		status = sweep_store_complete(&sweep->store);
-	status = end_run(sweep, status);
-	for (size_t b = 0; b < 2; b++)
-		sweep_block_destroy(&sweep->blocks[b]);
-	return status;
+	return end_run(sweep, status);
 }
 
 static batten_status run_plan(const sweep_plan *plan, const char *path,
                               const batten_sweep_options *options, batten_sweep_progress *out)
 {
-	struct sweep sweep = { .plan = plan,
-		                   .options = *options,
-		                   .begun = batten_wall_seconds(),
-		                   .machine = { .context = plan->context, .device = options->device } };
+	struct sweep sweep = { .plan = plan, .options = *options, .begun = batten_wall_seconds() };
 	const sweep_shard shard = sweep_shard_of(plan->sampling.count, options->shard,
 	                                         options->shard_count);
 	const store_opening opening = { options->resume, options->journal };
 	batten_status status = check_size(plan, options);
 	if (status == BATTEN_OK)
-		status = sweep_crew_create(plan->context, &sweep.machine.crew);
-	if (status == BATTEN_OK)
 		status = sweep_store_open(plan, &shard, path, &opening, &sweep.store);
 	if (status == BATTEN_OK)
 		status = run_opened(&sweep);
 	sweep_store_close(&sweep.store);
-	sweep_crew_destroy(&sweep.machine.crew);
 	*out = sweep.progress;
 	return status;
 }

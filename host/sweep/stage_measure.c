@@ -191,13 +191,15 @@ static batten_status run_batch(sweep_machine *machine, const struct measuring *m
 	uint8_t *nodes = batten_allocate(machine->context, measuring->batch_count, each);
 	batten_batch_options batch;
 	batten_batch_options_default(&batch);
-	batch.device = sweep_machine_device_f64(machine);
 	batten_status status = y_m && nodes ? BATTEN_OK : BATTEN_MEMORY;
 	if (status == BATTEN_OK) {
 		gather(measuring, y_m, nodes);
+		sweep_machine_lock(machine);
+		batch.device = sweep_machine_device_f64(machine);
 		status = batten_hull_hydrostatics_batch(
 			machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
 			y_m, nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
+		sweep_machine_unlock(machine);
 	}
 	batten_release(machine->context, y_m);
 	batten_release(machine->context, nodes);

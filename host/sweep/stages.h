@@ -9,9 +9,14 @@
 typedef struct sweep_machine {
 	batten_context *context;
 	sweep_crew crew;
-	int device;     /* as in batten_search_options */
+	int device;                   /* as in batten_search_options */
+	pthread_mutex_t *device_lock; /* held while a batch runs on the devices; may be NULL */
 	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
 } sweep_machine;
+
+/* Before and after a batch on the devices. */
+void sweep_machine_lock(const sweep_machine *machine);
+void sweep_machine_unlock(const sweep_machine *machine);
 
 /* What runs batches in f64: the device, or the C path where it has none. */
 int sweep_machine_device_f64(const sweep_machine *machine);

@@ -52,6 +52,12 @@ ask()
 	sqlite3 "$1" "$2"
 }
 
+# begun LOG: how many designs a sweep had begun by the last line of its log.
+begun()
+{
+	sed -n 's/.*"begun":\([0-9]*\),.*/\1/p' "$1" | tail -n 1
+}
+
 # equals WHAT FOUND EXPECTED
 equals()
 {
