@@ -24,6 +24,8 @@ const bench_entry bench_entries[] = {
 	  bench_surface_energy },
 	{ "surface.opencascade", "the same grid against OpenCASCADE, where that is installed",
 	  bench_surface_opencascade },
+	{ "surface.c_vectors", "curvature grids against the same source compiled as C",
+	  bench_surface_c_vectors },
 	{ "variation.lackenby",
 	  "variants of a trawler and their hydrostatics, against the plain C path",
 	  bench_variation_lackenby },

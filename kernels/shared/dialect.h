@@ -10,6 +10,9 @@
  * WORK_ITEMS, which WAIT for each other. GLOBAL and LOCAL say where memory lies, STATE where the state
  * of a search does (local, or global where it is too large; defined by the host).
  *
+ * A C compiler with vector types can compile kernels too, where the includer has spelled OpenCL C's words
+ * in its own beforehand, SPREAD and what turn.h calls for among them (bench/c_vectors.h).
+ *
  * Strict arithmetic: only + - * / sqrt and comparisons, no contraction, so that C and every device
  * agree bit for bit. */
 #ifndef BATTEN_SHARED_DIALECT_H
@@ -75,7 +78,9 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #define CHOOSE(condition, when_true, when_false) select(when_false, when_true, condition)
 #define ANY(condition) any(condition)
 #endif
+#if !defined(SPREAD)
 #define SPREAD(a) ((real)(a))
+#endif
 #define SHARED_FUNCTION static inline
 #define GLOBAL global
 #define LOCAL local

@@ -5,10 +5,13 @@
 
 /* Loops over a basis or over lanes are short, fixed and worth unrolling; the others are not (ROLLED).
  * PoCL needs to be told both. */
+#if !defined(UNROLLED)
 #define UNROLLED _Pragma("unroll")
+#endif
 
 /* The first halves of two vectors taken in turns, and the second halves. */
-#if BATTEN_LANES == 2
+#if defined(TURNS_LOW)
+#elif BATTEN_LANES == 2
 #define TURNS_LOW(a, b) (real)(a.s0, b.s0)
 #define TURNS_HIGH(a, b) (real)(a.s1, b.s1)
 #elif BATTEN_LANES == 4

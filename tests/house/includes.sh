@@ -25,7 +25,7 @@ variation     core hull geometry batch hydrostatics shared
 fairing       core hull geometry batch hydrostatics shared
 report        core hull geometry picture
 sweep         core hull geometry batch io exchange picture ray hydrostatics variation fairing shared
-bench
+bench         shared kernels
 cli           bench
 data
 oracle
