@@ -98,12 +98,14 @@ static batten_status check_points(const batten_pass *pass, const pass_lines *lin
 	if (points >= least)
 		return BATTEN_OK;
 	if (points < 3)
-		return batten_fail(pass->context, BATTEN_INPUT,
-		                   "the longest of the %s has %zu points, expected 3 or more", what,
-		                   points);
-	return batten_fail(pass->context, BATTEN_USAGE,
-	                   "order %zu%s of %s needs %zu points, the longest has %zu", r->order,
-	                   r->vertices > r->order ? " with more vertices" : "", what, least, points);
+		return batten_fail(pass->context, BATTEN_INPUT, "%s has %zu points, expected 3 or more",
+		                   what, points);
+	if (r->vertices > r->order)
+		return batten_fail(pass->context, BATTEN_USAGE,
+		                   "order %zu with %zu vertices needs %zu points, %s has %zu", r->order,
+		                   r->vertices, least, what, points);
+	return batten_fail(pass->context, BATTEN_USAGE, "order %zu needs %zu points, %s has %zu",
+	                   r->order, least, what, points);
 }
 
 static batten_status write_program(batten_pass *pass, pass_writer *writer, pass_task *task,
@@ -115,9 +117,9 @@ static batten_status write_program(batten_pass *pass, pass_writer *writer, pass_
 	if (o->method == BATTEN_METHOD_INVERSE)
 		task->across.vertices = o->vertices;
 	batten_status status = check_points(pass, task->waterlines, &task->along,
-	                                    single ? "line" : "waterlines");
+	                                    single ? "the line" : "the longest waterline");
 	if (status == BATTEN_OK && !single)
-		status = check_points(pass, task->sections, &task->across, "sections");
+		status = check_points(pass, task->sections, &task->across, "the longest section");
 	if (status != BATTEN_OK)
 		return status;
 	if (o->method == BATTEN_METHOD_FORWARD_APPROXIMATION)

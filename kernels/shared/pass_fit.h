@@ -5,14 +5,7 @@
 #define BATTEN_SHARED_PASS_FIT_H
 
 #include "shared/line_spline.h"
-
-/* A line and the room of the work-item. */
-typedef struct pass_line {
-	int points, order, vertices;
-	GLOBAL const int *from, *to; /* places in the state */
-	GLOBAL const scalar *along;  /* x of the points */
-	GLOBAL real *parameter, *band, *x, *y;
-} pass_line;
+#include "shared/pass_fit_quadratic.h"
 
 /* A pivot below this part of its diagonal is rounding: the points do not determine the vertices. */
 #if BATTEN_DOUBLE
@@ -71,15 +64,17 @@ SHARED_FUNCTION void pass_add_point(const pass_line *l, int i, real y)
 	}
 }
 
-/* The factor of the normal equations in the place of their band; 1 where a pivot is lost. */
+/* The factor of the normal equations in the place of their band, its diagonal inverted: a division takes
+ * longer than many products. 1 where a pivot is lost. */
 SHARED_FUNCTION real pass_factor(const pass_line *l)
 {
 	const int order = l->order;
+	const real one = SPREAD(LITERAL(1.0));
 	real lost = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int i = 0; i < l->vertices; i++) {
 		const real diagonal = l->band[i * order];
-		real root = diagonal;
+		real inverse = diagonal;
 		ROLLED
 		for (int d = 0; d < order && i + d < l->vertices; d++) {
 			real sum = l->band[i * order + d];
@@ -88,11 +83,11 @@ SHARED_FUNCTION real pass_factor(const pass_line *l)
 				sum -= l->band[q * order + i - q] * l->band[q * order + i + d - q];
 			if (d == 0) {
 				const mask good = sum > SPREAD(PASS_PIVOT) * diagonal;
-				lost = CHOOSE(good, lost, SPREAD(LITERAL(1.0)));
-				root = SQUARE_ROOT(CHOOSE(good, sum, SPREAD(LITERAL(1.0))));
-				l->band[i * order] = root;
+				lost = CHOOSE(good, lost, one);
+				inverse = one / SQUARE_ROOT(CHOOSE(good, sum, one));
+				l->band[i * order] = inverse;
 			} else {
-				l->band[i * order + d] = sum / root;
+				l->band[i * order + d] = sum * inverse;
 			}
 		}
 	}
@@ -108,7 +103,7 @@ SHARED_FUNCTION void pass_solve(const pass_line *l, GLOBAL real *right)
 		ROLLED
 		for (int q = i - order + 1 > 0 ? i - order + 1 : 0; q < i; q++)
 			sum -= l->band[q * order + i - q] * right[q];
-		right[i] = sum / l->band[i * order];
+		right[i] = sum * l->band[i * order];
 	}
 	ROLLED
 	for (int i = l->vertices - 1; i >= 0; i--) {
@@ -116,7 +111,7 @@ SHARED_FUNCTION void pass_solve(const pass_line *l, GLOBAL real *right)
 		ROLLED
 		for (int d = 1; d < order && i + d < l->vertices; d++)
 			sum -= l->band[i * order + d] * right[i + d];
-		right[i] = sum / l->band[i * order];
+		right[i] = sum * l->band[i * order];
 	}
 }
 
@@ -143,25 +138,9 @@ SHARED_FUNCTION real pass_fitted(const pass_line *l, GLOBAL const real *knot_x, 
 	return spline_value(l->order, last, span, t, y);
 }
 
-SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
+/* x of the curve at every knot inside the range, into the room of the factor, which has done its work. */
+SHARED_FUNCTION void pass_find_knots(const pass_line *l)
 {
-	const real zero = SPREAD(LITERAL(0.0));
-	const int end = l->points - 1;
-	ROLLED
-	for (int i = 0; i < l->vertices * (l->order + 2); i++)
-		l->band[i] = zero; /* x and y follow the band */
-	pass_find_parameters(l, state);
-	ROLLED
-	for (int i = 0; i <= end; i++)
-		pass_add_point(l, i, state[l->from[i]]);
-	const real lost = pass_factor(l);
-	pass_solve(l, l->x);
-	pass_solve(l, l->y);
-	l->x[0] = SPREAD(l->along[0]);
-	l->y[0] = state[l->from[0]];
-	l->x[l->vertices - 1] = SPREAD(l->along[end]);
-	l->y[l->vertices - 1] = state[l->from[end]];
-	/* The factor has done its work: the x at the knots take its room. */
 	const int spans = l->vertices - l->order + 1;
 	ROLLED
 	for (int s = 1; s < spans; s++) {
@@ -172,9 +151,38 @@ SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 		l->band[s] = spline_value(l->order, pass_last_knot(l), SPREAD((scalar)s), SPREAD((scalar)s),
 		                          window);
 	}
+}
+
+SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const int end = l->points - 1;
+	const int quadratic = l->order == 3;
+	ROLLED
+	for (int i = 0; i < l->vertices * (l->order + 2); i++)
+		l->band[i] = zero; /* x and y follow the band */
+	pass_find_parameters(l, state);
+	ROLLED
+	for (int i = 0; i <= end; i++)
+		if (quadratic)
+			quadratic_add_point(l, i, state[l->from[i]]);
+		else
+			pass_add_point(l, i, state[l->from[i]]);
+	const real lost = pass_factor(l);
+	pass_solve(l, l->x);
+	pass_solve(l, l->y);
+	l->x[0] = SPREAD(l->along[0]);
+	l->y[0] = state[l->from[0]];
+	l->x[l->vertices - 1] = SPREAD(l->along[end]);
+	l->y[l->vertices - 1] = state[l->from[end]];
+	if (quadratic)
+		quadratic_find_joints(l);
+	else
+		pass_find_knots(l);
 	ROLLED
 	for (int i = 1; i < end; i++) {
-		const real fitted = pass_fitted(l, l->band, l->along[i]);
+		const real fitted = quadratic ? quadratic_fitted(l, l->along[i])
+		                              : pass_fitted(l, l->band, l->along[i]);
 		const real old = state[l->from[i]];
 		state[l->to[i]] = CHOOSE(lost > zero, old, fitted);
 	}

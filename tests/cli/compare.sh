@@ -51,6 +51,20 @@ expect 2 curve "$DATA/lines/npl_waterline.csv" --method smooth
 says "found 'smooth'"
 expect 2 curve "$DATA/lines/npl_waterline.csv" --vertices 6
 says 'need --method'
+six=$DATA/lines/quadratic.csv
+expect 2 curve "$six" --method forward-approximation --fair-order 7
+says 'order 7 needs 7 points, the line has 6'
+expect 2 curve "$six" --method inverse --fair-order 5
+says 'order 5 needs 7 points, the line has 6'
+expect 2 curve "$six" --method forward-fit --vertices 7
+says 'order 3 with 7 vertices needs 7 points, the line has 6'
+expect 2 curve "$six" --method inverse --iterations 0
+says 'found 0 iterations'
+expect 2 curve "$six" --method inverse --iterations 1000000000
+says "found '1000000000'"
+printf 'x,y\n0,0\n1,1\n1,1\n2,3\n3,3\n' >coincident.csv
+expect 3 curve coincident.csv --method inverse
+says 'coincident.csv:4:1: found the point before it again'
 printf 'x,y\n0,0\n1,1\n' >two.csv
 expect 2 curve two.csv --method inverse
 says 'a line of 2 points'

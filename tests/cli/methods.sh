@@ -29,6 +29,8 @@ expect 0 fair "$hulls/npl_parent.csv" --method smooth --out smooth
 expect 0 fair "$hulls/npl_parent.csv" --method forward-fit --smooth --out fit
 [ "$(grep -c '"old_m"' fit/report.json)" -eq 1 ] || fail "fit --smooth: not one offset replaced"
 says 'too few points for the method and were passed over'
+grep -q '"2 lines .* have too few points for the method and were passed over' fit/report.json ||
+	fail "the report does not say what was passed over"
 
 for restore in beam volume cp,lcb; do
 	expect 0 fair "$hulls/bsra_trawler.csv" --method forward-approximation --iterations 2 \
@@ -60,6 +62,15 @@ refuse 'is about the search' --method inverse --lock station:8
 refuse 'is about forward and inverse' --restore beam
 refuse "found 'backward'" --method backward
 refuse "expected beam, volume or cp,lcb" --method inverse --restore draft
+{
+	sed -n '/^#/p' "$hull"
+	printf 'z\\x,0,1,2,3\n0,0,0.2,0.1,0\n1,0,1,1,0\n2,0,1.2,1.2,0\n'
+} >small.csv
+expect 2 fair small.csv --method forward-approximation --order 5 --out refused
+says 'order 5 needs 5 points, the longest waterline has 4'
+sed 's/,2,3$/,2,2/' small.csv >coincident.csv
+expect 3 fair coincident.csv --method inverse --out refused
+says "found '2', expected each x once"
 sed '$a profile,stem,15.5,0,1' "$hull" >behind.csv
 expect 3 fair behind.csv --method forward-approximation --out refused
 says 'behind the end of the waterline'

@@ -279,7 +279,8 @@ static void test_refusals(void **state)
 		{ BATTEN_METHOD_FORWARD_APPROXIMATION, 9, 0, "found order 9, expected 2 to 8" },
 		{ BATTEN_METHOD_FORWARD_APPROXIMATION, 3, 8, "found 8 vertices" },
 		{ BATTEN_METHOD_FORWARD_FIT, 4, 3, "found 3 vertices, expected at least the order 4" },
-		{ BATTEN_METHOD_FORWARD_FIT, 4, 14, "needs 14 points, the longest has 13" },
+		{ BATTEN_METHOD_FORWARD_FIT, 4, 14,
+		  "order 4 with 14 vertices needs 14 points, the longest waterline has 13" },
 		{ BATTEN_METHOD_SEARCH, 3, 0, "is expected" },
 	};
 	for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
@@ -299,7 +300,7 @@ static void test_refusals(void **state)
 	               "a line of 2 points, expected 3");
 	options.order = 4;
 	assert_refused(context, batten_pass_create_line(context, 3, x + 2, &options, &pass),
-	               BATTEN_USAGE, "order 4 of line needs 4 points, the longest has 3");
+	               BATTEN_USAGE, "order 4 needs 4 points, the line has 3");
 	batten_fairing *fairing = NULL;
 	for (int i = 0; i < 2; i++) {
 		const batten_fair_options bad = by_method(BATTEN_METHOD_INVERSE, i == 0 ? 0 : 1000000000);
