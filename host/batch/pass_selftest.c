@@ -84,8 +84,10 @@ static void make_lines(test_batch *t)
 
 static pass_program_numbers make_program(test_batch *t)
 {
-	const int32_t operations[] = { PASS_ROWS, 0, VALUES, PASS_TILES, VALUES, TILES * PASS_TILE,
-		                           PASS_FIT,  0, LINES,  PASS_FLOOR, 0,      VALUES };
+	const int32_t operations[] = {
+		PASS_ROWS, 0, VALUES, PASS_TILES_IN_ORDER, VALUES, TILES * PASS_TILE,
+		PASS_FIT,  0, LINES,  PASS_FLOOR,          0,      VALUES
+	};
 	memcpy(t->operations, operations, sizeof operations);
 	make_rows(t);
 	make_tiles(t);

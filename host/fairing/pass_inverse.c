@@ -5,6 +5,7 @@
  * alike. Ends of lines stay. A single line has as many equations as unknowns: they are met exactly.
  *
  * Fields that do not change ask for nothing: e is 0, and so is delta, to the last bit. */
+#include "fairing/pass_compose.h"
 #include "fairing/pass_forward.h"
 #include "fairing/pass_system.h"
 
@@ -280,6 +281,24 @@ static void add_equation(inverse *v, const field *f, size_t p, const equation *e
 		}
 }
 
+/* What representing the fields changes in them, e, at all points where it changes anything. */
+static void write_changes(inverse *v)
+{
+	pass_operation(v->writer, PASS_ROWS);
+	for (size_t d = 0; d < DIRECTIONS; d++) {
+		field *f = &v->fields[d];
+		for (size_t p = 0; p < f->lines->point_count; p++) {
+			if (f->at[p] == NONE || f->at[p] == f->given + p)
+				continue;
+			const size_t change = pass_room(v->writer, 1);
+			pass_term(v->writer, f->at[p], 1.0);
+			pass_term(v->writer, f->given + p, -1.0);
+			pass_row(v->writer, change);
+			f->at[p] = change;
+		}
+	}
+}
+
 /* The right side of an unknown: all equations that it is in, those that ask for nothing left out. */
 static void write_right(inverse *v, size_t unknown)
 {
@@ -297,7 +316,6 @@ static void write_right(inverse *v, size_t unknown)
 			const double factor = is_single(v) ? -0.5 * (along[1] - along[-1])
 			                                   : e.factors[j] * e.scale;
 			pass_term(v->writer, f->at[q], factor);
-			pass_term(v->writer, f->given + q, -factor);
 			terms++;
 		}
 	}
@@ -326,9 +344,12 @@ static void write_solution(inverse *v)
 				"to solve for its offsets");
 	}
 	if (writer->status == BATTEN_OK) {
+		write_changes(v);
 		pass_operation(writer, PASS_ROWS);
 		for (size_t u = 0; u < v->unknown_count; u++)
 			write_right(v, u);
+		const size_t constants = (size_t)writer->numbers.shape[PASS_SHAPE_CONSTANTS];
+		pass_compose(writer, v->task->values + constants, v->unknown_count, v->right);
 		pass_system_write(&system, writer, v->right);
 		pass_operation(writer, PASS_ROWS);
 		for (size_t u = 0; u < v->unknown_count; u++) {

@@ -181,7 +181,7 @@ void pass_system_write(const pass_system *system, pass_writer *writer, const siz
 	/* The last tile has rows to spare; what they give goes to a place of its own. */
 	const size_t spare = pass_room(writer, 1);
 	const size_t tiles = (system->count + PASS_TILE - 1) / PASS_TILE;
-	pass_operation(writer, PASS_TILES);
+	pass_operation(writer, PASS_TILES_IN_ORDER);
 	for (size_t n = 0; n < tiles; n++) {
 		const tile t = tile_at(system, n * PASS_TILE);
 		write_forward(system, writer, &t, right, spare);

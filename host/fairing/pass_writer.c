@@ -94,13 +94,22 @@ size_t pass_room(pass_writer *writer, size_t count)
 	return first;
 }
 
+void pass_writer_clear(pass_writer *writer, size_t base)
+{
+	pass_program_numbers *n = &writer->numbers;
+	n->row_count = n->term_count = 0;
+	writer->operation_count = writer->product_count = 0;
+	n->shape[PASS_SHAPE_STATE] = (int32_t)base;
+}
+
 /* Completes the operation at work; an empty one is taken back. */
 static void close_operation(pass_writer *w)
 {
 	if (w->status != BATTEN_OK || w->operation_count == 0)
 		return;
 	int32_t *last = w->numbers.operations + (w->operation_count - 1) * PASS_OPERATION_SIZE;
-	if (last[PASS_KIND] == PASS_ROWS || last[PASS_KIND] == PASS_TILES)
+	if (last[PASS_KIND] == PASS_ROWS || last[PASS_KIND] == PASS_TILES ||
+	    last[PASS_KIND] == PASS_TILES_IN_ORDER)
 		last[PASS_COUNT] = (int32_t)w->numbers.row_count - last[PASS_FIRST];
 	else if (last[PASS_KIND] == PASS_FIT)
 		last[PASS_COUNT] = (int32_t)w->numbers.line_count - last[PASS_FIRST];

@@ -36,6 +36,9 @@ void pass_row(pass_writer *writer, size_t target);
 void pass_point(pass_writer *writer, size_t from, size_t to, double along);
 void pass_line(pass_writer *writer);
 
+/* Takes back all rows, and room beyond the first `base` places. */
+void pass_writer_clear(pass_writer *writer, size_t base);
+
 /* Ends the last operation; the program is whole. */
 batten_status pass_writer_end(pass_writer *writer);
 

@@ -11,16 +11,15 @@
 enum {
 	/* rows: state[target] = sum of factor * state[index], no row reading what another one writes */
 	PASS_ROWS = 0,
-	/* rows, PASS_TILE of them at a time, that read the same numbers, also what the rows before them
-	 * wrote, and write when all is read: triangular systems. The terms belong to the first of them,
-	 * PASS_TILE side by side to an index: one for each of the rows */
+	/* rows, PASS_TILE of them at a time, that read the same numbers and write when all is read. The
+	 * terms belong to the first of them, PASS_TILE side by side to an index: one for each of the rows */
 	PASS_TILES,
-	PASS_FLOOR, /* values: below 0 they become 0 */
-	PASS_FIT,   /* lines: least squares with parameters by chord length, which depend on y */
+	PASS_TILES_IN_ORDER, /* tiles that read what those before them wrote: triangular systems */
+	PASS_FLOOR,          /* values: below 0 they become 0 */
+	PASS_FIT, /* lines: least squares with parameters by chord length, which depend on y */
 };
 
-/* A triangular row waits for the one before it; so many at once wait once, and load what they read
- * once. */
+/* So many rows load what they read once; and where a row waits for the one before it they wait once. */
 enum { PASS_TILE = 4 };
 
 /* An operation. */

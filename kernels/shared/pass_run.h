@@ -80,9 +80,11 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 		ROLLED
 		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS)
 			pass_work_row(p, row, state);
-	} else if (kind == PASS_TILES) {
+	} else if (kind == PASS_TILES || (kind == PASS_TILES_IN_ORDER && WORK_ITEM == 0)) {
+		const int items = kind == PASS_TILES ? WORK_ITEMS : 1;
 		ROLLED
-		for (int row = first; row < end && WORK_ITEM == 0; row += PASS_TILE)
+		for (int row = first + (items > 1 ? WORK_ITEM * PASS_TILE : 0); row < end;
+		     row += items * PASS_TILE)
 			pass_work_tile(p, row, state);
 	} else if (kind == PASS_FLOOR) {
 		ROLLED
