@@ -16,8 +16,9 @@ enum {
 	VERTICES = 5,
 	TILES = (VALUES + PASS_TILE - 1) / PASS_TILE,
 	TILE_READS = PASS_TILE + 1,
-	ROWS = VALUES + TILES * PASS_TILE,
-	TERMS = 3 * VALUES + TILES * TILE_READS * PASS_TILE,
+	ADDITIONS = VALUES + TILES * PASS_TILE, /* the row that is added */
+	ROWS = ADDITIONS + 1,
+	TERMS = 3 * VALUES + TILES * TILE_READS * PASS_TILE + 1,
 	LANES_MOST = 16,
 	HULLS_MOST = 2 * LANES_MOST + 1
 };
@@ -64,6 +65,9 @@ static void make_tiles(test_batch *t)
 			}
 		}
 	}
+	t->row_first[ADDITIONS] = n;
+	t->row_target[ADDITIONS] = 2;
+	t->term_index[n] = VALUES;
 	t->row_first[ROWS] = TERMS;
 }
 
@@ -84,10 +88,14 @@ static void make_lines(test_batch *t)
 
 static pass_program_numbers make_program(test_batch *t)
 {
-	const int32_t operations[] = {
-		PASS_ROWS, 0, VALUES, PASS_TILES_IN_ORDER, VALUES, TILES * PASS_TILE,
-		PASS_FIT,  0, LINES,  PASS_FLOOR,          0,      VALUES
-	};
+	const int32_t operations[] = { PASS_ROWS,  0,
+		                           VALUES,     PASS_TILES_IN_ORDER,
+		                           VALUES,     TILES * PASS_TILE,
+		                           PASS_ADD,   ADDITIONS,
+		                           1,          PASS_FIT,
+		                           0,          LINES,
+		                           PASS_FLOOR, 0,
+		                           VALUES };
 	memcpy(t->operations, operations, sizeof operations);
 	make_rows(t);
 	make_tiles(t);
@@ -106,7 +114,7 @@ static pass_program_numbers make_program(test_batch *t)
 		                             .term_factor = t->term_factor,
 		                             .point_along = t->point_along,
 		                             .constants = t->constants };
-	program.shape[PASS_SHAPE_OPERATIONS] = 4;
+	program.shape[PASS_SHAPE_OPERATIONS] = 5;
 	program.shape[PASS_SHAPE_VALUES] = VALUES;
 	program.shape[PASS_SHAPE_LARGEST] = 1000;
 	program.shape[PASS_SHAPE_CONSTANTS] = CONSTANTS;

@@ -351,9 +351,8 @@ static void write_solution(inverse *v)
 		const size_t constants = (size_t)writer->numbers.shape[PASS_SHAPE_CONSTANTS];
 		pass_compose(writer, v->task->values + constants, v->unknown_count, v->right);
 		pass_system_write(&system, writer, v->right);
-		pass_operation(writer, PASS_ROWS);
+		pass_operation(writer, PASS_ADD);
 		for (size_t u = 0; u < v->unknown_count; u++) {
-			pass_term(writer, v->value[u], 1.0);
 			pass_term(writer, v->right[u], 1.0);
 			pass_row(writer, v->value[u]);
 		}

@@ -108,8 +108,7 @@ static void close_operation(pass_writer *w)
 	if (w->status != BATTEN_OK || w->operation_count == 0)
 		return;
 	int32_t *last = w->numbers.operations + (w->operation_count - 1) * PASS_OPERATION_SIZE;
-	if (last[PASS_KIND] == PASS_ROWS || last[PASS_KIND] == PASS_TILES ||
-	    last[PASS_KIND] == PASS_TILES_IN_ORDER)
+	if (last[PASS_KIND] < PASS_FLOOR)
 		last[PASS_COUNT] = (int32_t)w->numbers.row_count - last[PASS_FIRST];
 	else if (last[PASS_KIND] == PASS_FIT)
 		last[PASS_COUNT] = (int32_t)w->numbers.line_count - last[PASS_FIRST];

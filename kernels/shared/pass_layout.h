@@ -7,7 +7,7 @@
 #ifndef BATTEN_SHARED_PASS_LAYOUT_H
 #define BATTEN_SHARED_PASS_LAYOUT_H
 
-/* Kinds of operations, and of what `first` and `count` are numbers. */
+/* Kinds of operations, and of what `first` and `count` are numbers; those of rows come first. */
 enum {
 	/* rows: state[target] = sum of factor * state[index], no row reading what another one writes */
 	PASS_ROWS = 0,
@@ -15,6 +15,7 @@ enum {
 	 * terms belong to the first of them, PASS_TILE side by side to an index: one for each of the rows */
 	PASS_TILES,
 	PASS_TILES_IN_ORDER, /* tiles that read what those before them wrote: triangular systems */
+	PASS_ADD,            /* rows of one term each: state[target] += state[index] */
 	PASS_FLOOR,          /* values: below 0 they become 0 */
 	PASS_FIT, /* lines: least squares with parameters by chord length, which depend on y */
 };

@@ -86,6 +86,10 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 		for (int row = first + (items > 1 ? WORK_ITEM * PASS_TILE : 0); row < end;
 		     row += items * PASS_TILE)
 			pass_work_tile(p, row, state);
+	} else if (kind == PASS_ADD) {
+		ROLLED
+		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS)
+			state[p->row_target[row]] += state[p->term_index[p->row_first[row]]];
 	} else if (kind == PASS_FLOOR) {
 		ROLLED
 		for (int v = first + WORK_ITEM; v < end; v += WORK_ITEMS)
