@@ -7,6 +7,8 @@
 #define PRODUCTS_PART 1.5
 #define TILE_PART 2.0
 
+enum { POOL_LEAST = 1024 };
+
 /* A number of the state as a sum of places below base. */
 typedef struct sum {
 	size_t first, count; /* terms in the pool; count SIZE_MAX: not written */
@@ -40,12 +42,14 @@ static bool begin(composition *c, pass_writer *writer, size_t base)
 {
 	batten_context *context = writer->context;
 	const size_t state = (size_t)writer->numbers.shape[PASS_SHAPE_STATE];
-	*c = (composition){ .writer = writer, .base = base };
+	*c = (composition){ .writer = writer, .base = base, .pool_room = POOL_LEAST };
+	c->pool_place = batten_allocate(context, POOL_LEAST, sizeof *c->pool_place);
+	c->pool_factor = batten_allocate(context, POOL_LEAST, sizeof *c->pool_factor);
 	c->sums = batten_allocate(context, state + 1, sizeof *c->sums);
 	c->factors = batten_allocate(context, base + 1, sizeof *c->factors);
 	c->used = batten_allocate(context, base + 1, sizeof *c->used);
 	c->places = batten_allocate(context, base + 1, sizeof *c->places);
-	if (!c->sums || !c->factors || !c->used || !c->places) {
+	if (!c->sums || !c->factors || !c->used || !c->places || !c->pool_place || !c->pool_factor) {
 		writer->status = BATTEN_MEMORY;
 		return false;
 	}
@@ -85,10 +89,8 @@ static bool make_room(composition *c, size_t count)
 		c->writer->status = BATTEN_MEMORY;
 		return false;
 	}
-	if (c->pool_count > 0) {
-		memcpy(place, c->pool_place, c->pool_count * sizeof *place);
-		memcpy(factor, c->pool_factor, c->pool_count * sizeof *factor);
-	}
+	memcpy(place, c->pool_place, c->pool_count * sizeof *place);
+	memcpy(factor, c->pool_factor, c->pool_count * sizeof *factor);
 	batten_release(context, c->pool_place);
 	batten_release(context, c->pool_factor);
 	c->pool_place = place;

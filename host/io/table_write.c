@@ -236,5 +236,5 @@ batten_status batten_table_write(batten_context *context, const batten_table *ta
 {
 	batten_table_file *file = NULL;
 	const batten_status status = batten_table_open(context, table, path, &file);
-	return status == BATTEN_OK ? batten_table_commit(file) : status;
+	return file ? batten_table_commit(file) : status;
 }
