@@ -2,30 +2,38 @@
 #include "cli.h"
 
 #include "json_out.h"
+#include "surface_grid.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
 	.name = "surface",
-	.usage = "HULL.csv --net MxN [--out FILE] [OPTION ...]",
+	.usage = "HULL.csv --net MxN [--out FILE] [OPTION ...]\n"
+			 "       batten surface SURFACE --grid FILE [--points MxN]",
 	.summary = "fits a B-spline surface to the offsets of a hull by least squares",
 	.example = "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.json\n"
 			   "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.igs\n"
-			   "  batten surface data/hulls/wigley.csv --net 3x3 --order 3x3 --json\n",
+			   "  batten surface data/hulls/wigley.csv --net 3x3 --order 3x3 --json\n"
+			   "  batten surface npl.json --grid curvature.csv --points 101x51\n",
 	.notes =
 		"The net has M poles along the hull and N from keel to deck; its edges follow keel, stern,\n"
 		"stem and the tops of the sections. Edges in the centreplane keep y = 0. A net of as many\n"
 		"poles as a full table has stations and waterlines goes through every point. The deviation\n"
 		"is the distance of the offsets from the nearest point of the surface. FILE ends in .json\n"
 		"(data/schema/surface.schema.json), or in .igs, .iges, .stp, .step: IGES and STEP for other\n"
-		"programs. All are in metres, frame ap-fwd.\n",
+		"programs. All are in metres, frame ap-fwd.\n"
+		"--grid writes a table of the surface, fitted or read: u, v, position, derivatives, both\n"
+		"fundamental forms, normal, curvatures (positive towards the outward normal, so that a\n"
+		"convex hull's are negative), principal directions, isophote value by light from port;\n"
+		"singular is 1 where there is no normal.\n",
 };
 
 struct request {
 	cli_common common;
-	const char *hull_path, *out, *net, *order, *rounded;
-	bool free_edges;
+	const char *hull_path, *out, *net, *order, *rounded, *grid, *points;
+	bool free_edges, given; /* given: hull_path is a surface */
+	size_t u_count, v_count;
 	batten_fit_options fit;
 };
 
@@ -72,6 +80,31 @@ static batten_status print_json(const struct request *request, const batten_hull
 	return cli_json_print("surface", object);
 }
 
+static batten_status write_grid(const struct request *request, batten_context *context,
+                                const batten_surface *surface)
+{
+	return surface_grid_write(context, surface, request->u_count, request->v_count, request->grid);
+}
+
+/* A surface that is there already: its grid. */
+static batten_status read_surface(const struct request *request, batten_context *context)
+{
+	batten_surfaces *surfaces = NULL;
+	batten_status status = batten_surfaces_read(context, request->hull_path, &surfaces);
+	if (status == BATTEN_OK && batten_surfaces_count(surfaces) != 1) {
+		const size_t count = batten_surfaces_count(surfaces);
+		batten_surfaces_destroy(surfaces);
+		return cli_usage("surface",
+		                 "%s: found %zu surfaces, expected one: batten convert "
+		                 "--surface takes it out",
+		                 request->hull_path, count);
+	}
+	if (status == BATTEN_OK)
+		status = write_grid(request, context, batten_surfaces_at(surfaces, 0));
+	batten_surfaces_destroy(surfaces);
+	return status == BATTEN_OK ? status : cli_failure("surface", context, status);
+}
+
 static batten_status make_surface(const struct request *request, batten_context *context)
 {
 	batten_hull *hull = NULL;
@@ -83,6 +116,8 @@ static batten_status make_surface(const struct request *request, batten_context 
 	if (status == BATTEN_OK && request->out)
 		status = batten_surfaces_write(context, 1, (const batten_surface *const *)&surface,
 		                               request->out);
+	if (status == BATTEN_OK && request->grid)
+		status = write_grid(request, context, surface);
 	if (status != BATTEN_OK)
 		status = cli_failure("surface", context, status);
 	else if (request->common.json)
@@ -97,6 +132,20 @@ static batten_status make_surface(const struct request *request, batten_context 
 static batten_status read_request(struct request *request)
 {
 	batten_fit_options *fit = &request->fit;
+	if (request->points && !request->grid)
+		return cli_usage("surface", "--points: --grid FILE was expected with it");
+	if (request->points && (!cli_read_pair(request->points, &request->u_count, &request->v_count) ||
+	                        request->u_count < 2 || request->v_count < 2))
+		return cli_usage("surface", "--points: found '%s', expected MxN, as 65x33, each at least 2",
+		                 request->points);
+	request->given = cli_is_surface_file(request->hull_path);
+	if (request->given && (request->net || request->order || request->out || request->rounded))
+		return cli_usage("surface", "%s is a surface: only --grid was expected",
+		                 request->hull_path);
+	if (request->given)
+		return request->grid ? BATTEN_OK
+		                     : cli_usage("surface", "%s is a surface: --grid FILE was expected",
+		                                 request->hull_path);
 	if (!request->net)
 		return cli_usage("surface", "--net MxN was expected: poles along the hull, keel to deck");
 	if (!cli_read_pair(request->net, &fit->count_u, &fit->count_v))
@@ -116,7 +165,7 @@ static batten_status read_request(struct request *request)
 
 batten_status cli_surface(int argc, char **argv)
 {
-	struct request request = { 0 };
+	struct request request = { .u_count = 65, .v_count = 33 };
 	batten_fit_options_default(&request.fit);
 	const cli_option options[] = {
 		{ "net", CLI_TEXT, &request.net, "MxN", "poles along the hull and from keel to deck" },
@@ -128,6 +177,8 @@ batten_status cli_surface(int argc, char **argv)
 		  "do not hold y = 0 on edges in the centreplane" },
 		{ "corrections", CLI_COUNT, &request.fit.correction_limit, "N",
 		  "rounds of better parameters, at most (20)" },
+		{ "grid", CLI_TEXT, &request.grid, "FILE", "a table of the surface, .csv or .json" },
+		{ "points", CLI_TEXT, &request.points, "MxN", "points of --grid along u and v (65x33)" },
 		{ 0 },
 	};
 	size_t count = 0;
@@ -144,7 +195,7 @@ batten_status cli_surface(int argc, char **argv)
 		status = cli_context_create("surface", &request.common, &context);
 	if (status != BATTEN_OK)
 		return status;
-	status = make_surface(&request, context);
+	status = request.given ? read_surface(&request, context) : make_surface(&request, context);
 	batten_context_destroy(context);
 	return status;
 }

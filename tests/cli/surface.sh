@@ -9,7 +9,7 @@ cd place || exit 1
 expect 0 surface --help
 prints '^usage: batten surface'
 prints '^example:'
-for option in net order out rounded corrections threads max-memory json quiet; do
+for option in net order out rounded corrections grid points threads max-memory json quiet; do
 	prints "^  --$option"
 done
 expect 0 --help
@@ -37,6 +37,25 @@ prints 'Wigley hull: 3 x 3 poles of order 3 x 3, fitted to 260 points'
 prints '^deviation, rms .* m .* % of the half-beam$'
 prints '^deviation, largest .* m .* % of the half-beam$'
 
+# A grid: K and H of the Wigley hull amidships at the waterline (a convex hull's curvatures are negative),
+# the same of the surface that was written as of the one that was fitted.
+expect 0 surface "$hull" --net 3x3 --order 3x3 --grid fitted.csv --points 5x3
+expect 0 surface wigley.json --grid read.csv --points 5x3
+cmp fitted.csv read.csv || fail 'the written surface has another grid'
+[ "$(grep -vc '^#' read.csv)" -eq 16 ] || fail 'not a line of names and 15 points'
+column()
+{
+	grep -v '^#' read.csv | awk -F, -v name="$1" -v row="$2" '
+		NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i }
+		NR == row + 1 { print $at }'
+}
+# Point 13 of 15: u = 1/2, v = 1; L 16, B 1.6, D 1: H = -(2 B / L^2 + B / (2 D^2)).
+holds 'H' 'h + 0.8125 < 1e-12 && h + 0.8125 > -1e-12' h="$(column mean_per_m 13)"
+holds 'K' 'k - 0.04 < 1e-12 && k - 0.04 > -1e-12' k="$(column gauss_per_m2 13)"
+holds 'y' 'y - 0.8 < 1e-12 && y - 0.8 > -1e-12' y="$(column y_m 13)"
+expect 0 surface wigley.json --grid grid.json
+json_is_valid grid.json || fail 'grid.json is no JSON'
+
 # Without --out nothing is written.
 before=$(state_of .)
 expect 0 surface "$hulls/npl_parent.csv" --net 13x13 --json
@@ -62,6 +81,12 @@ refuses 2 '--net MxN' "$hull"
 for net in 3 3x x3 3x3x3 axb -3x3 3X3 '' 12345x3; do
 	refuses 2 "--net: found '$net'" "$hull" --net "$net"
 done
+refuses 2 'only --grid' wigley.json --net 3x3 --grid g.csv
+refuses 2 '--grid FILE was expected' wigley.json
+refuses 2 '--grid FILE was expected' "$hull" --net 3x3 --points 5x5
+refuses 2 "--points: found '1x5'" wigley.json --grid g.csv --points 1x5
+refuses 2 'g.txt' wigley.json --grid g.txt
+refuses 6 'none.json' none.json --grid g.csv
 refuses 2 "--order: found '3'" "$hull" --net 3x3 --order 3
 refuses 2 'order 9' "$hull" --net 12x12 --order 9x4
 refuses 2 '3 poles along the hull' "$hull" --net 3x5
