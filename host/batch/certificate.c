@@ -20,9 +20,10 @@ batten_status certifier_create(const search_plan *plan, batten_precision precisi
 	const size_t nodes = plan->node_count;
 	c.arrays = batten_allocate(context, nodes, SEARCH_ARRAY_COUNT * sizeof(double));
 	c.gradient = batten_allocate(context, nodes, sizeof(double));
+	c.step = batten_allocate(context, nodes, sizeof(double));
 	c.number = batten_allocate(context, nodes, sizeof(size_t));
 	c.order = batten_allocate(context, plan->station_count * plan->waterline_count, sizeof(size_t));
-	if (!c.arrays || !c.gradient || !c.number || !c.order) {
+	if (!c.arrays || !c.gradient || !c.step || !c.number || !c.order) {
 		certifier_release(&c);
 		return BATTEN_MEMORY;
 	}
@@ -44,6 +45,7 @@ void certifier_release(certifier *c)
 	batten_context *context = c->plan->context;
 	batten_release(context, c->arrays);
 	batten_release(context, c->gradient);
+	batten_release(context, c->step);
 	batten_release(context, c->number);
 	batten_release(context, c->order);
 	*c = (certifier){ 0 };
@@ -115,8 +117,10 @@ static size_t number_unknowns(certifier *c, double *last)
 	const double *lower = array_of(c, SEARCH_ARRAY_LOWER);
 	const double *upper = array_of(c, SEARCH_ARRAY_UPPER);
 	size_t count = 0;
-	for (size_t n = 0; n < c->plan->node_count; n++)
+	for (size_t n = 0; n < c->plan->node_count; n++) {
 		c->number[n] = none;
+		c->step[n] = 0.0;
+	}
 	for (size_t o = 0; o < c->plan->station_count * c->plan->waterline_count; o++) {
 		const size_t n = c->order[o];
 		const double near = c->rounding * fabs(y[n]);
@@ -124,10 +128,12 @@ static size_t number_unknowns(certifier *c, double *last)
 		const bool up = y[n] >= upper[n] - near && c->gradient[n] <= 0.0;
 		if (!(lower[n] < upper[n]))
 			continue;
-		if (down || up)
-			*last += c->gradient[n] * (y[n] - (down ? lower[n] : upper[n]));
-		else
+		if (down || up) {
+			c->step[n] = y[n] - (down ? lower[n] : upper[n]);
+			*last += c->gradient[n] * c->step[n];
+		} else {
 			c->number[n] = count++;
+		}
 	}
 	return count;
 }
@@ -198,7 +204,7 @@ static void assemble(const certifier *c, double half_beam_m, size_t width, doubl
 }
 
 /* 1/2 g^T H^-1 g over the unknowns; NaN where H is not positive definite. */
-static double decrement(const certifier *c, size_t count, size_t width, double *band, double *step)
+static double decrement(certifier *c, size_t count, size_t width, double *band, double *step)
 {
 	for (size_t n = 0; n < c->plan->node_count; n++)
 		if (c->number[n] != none)
@@ -208,8 +214,10 @@ static double decrement(const certifier *c, size_t count, size_t width, double *
 	band_solve(count, width, band, step);
 	double sum = 0.0;
 	for (size_t n = 0; n < c->plan->node_count; n++)
-		if (c->number[n] != none)
-			sum += c->gradient[n] * step[c->number[n]];
+		if (c->number[n] != none) {
+			c->step[n] = step[c->number[n]];
+			sum += c->gradient[n] * c->step[n];
+		}
 	return 0.5 * sum;
 }
 
@@ -280,4 +288,53 @@ batten_status certifier_run(certifier *c, const batten_search_problem *problem, 
 		return BATTEN_OK;
 	}
 	return estimate(c, problem->half_beam_m, last, out);
+}
+
+/* The objective at y less `part` of the step, kept in the box; that is written to y_m. */
+static double objective_on_the_way(certifier *c, const batten_search_problem *problem,
+                                   const double *y, double part, double *y_m)
+{
+	const search_plan *plan = c->plan;
+	double *now = array_of(c, SEARCH_ARRAY_Y);
+	const double *lower = array_of(c, SEARCH_ARRAY_LOWER);
+	const double *upper = array_of(c, SEARCH_ARRAY_UPPER);
+	for (size_t k = 0; k < plan->waterline_count; k++)
+		for (size_t i = 0; i < plan->station_count; i++) {
+			const size_t node = k * plan->station_count + i;
+			const size_t n = (k + 1) * (plan->station_count + 2) + (i + 1);
+			if (lower[n] < upper[n])
+				now[n] = fmin(fmax(y[node] - part * c->step[n], lower[n]), upper[n]);
+			if (!problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE)
+				y_m[node] = now[n];
+		}
+	double fairness = 0.0;
+	return differentiate(c, problem->half_beam_m, &fairness);
+}
+
+batten_status certifier_polish(certifier *c, const batten_search_problem *problem, double gap,
+                               double *y_m, batten_certificate *out)
+{
+	enum { STEPS = 100, HALVINGS = 30 };
+	const size_t nodes = c->plan->station_count * c->plan->waterline_count;
+	double *before = batten_allocate(c->plan->context, nodes, sizeof *before);
+	batten_status status = before ? certifier_run(c, problem, y_m, out) : BATTEN_MEMORY;
+	for (unsigned step = 1; step <= STEPS && status == BATTEN_OK && out->gap_estimate > gap;
+	     step++) {
+		double part = 1.0;
+		int halvings = 0;
+		memcpy(before, y_m, nodes * sizeof *before);
+		while (halvings < HALVINGS &&
+		       !(objective_on_the_way(c, problem, before, part, y_m) < out->objective)) {
+			part *= 0.5;
+			halvings++;
+		}
+		if (halvings == HALVINGS) {
+			memcpy(y_m, before, nodes * sizeof *before);
+			break;
+		}
+		status = certifier_run(c, problem, y_m, out);
+		out->steps = step;
+	}
+	batten_release(c->plan->context, before);
+	return status;
 }

@@ -13,6 +13,7 @@ typedef struct certifier {
 	double *gradient;        /* a number a node */
 	size_t *number;          /* of the unknown at a node, SIZE_MAX where there is none */
 	size_t *order;           /* nodes of the grid, the shorter direction running first */
+	double *step;            /* a node: y less this is the minimum of the parabola */
 } certifier;
 
 /* precision: of the search. Errors: MEMORY. */
@@ -22,5 +23,9 @@ void certifier_release(certifier *c);
 /* y_m: of the problem, which is sound. Errors: MEMORY. */
 batten_status certifier_run(certifier *c, const batten_search_problem *problem, const double *y_m,
                             batten_certificate *out);
+
+/* Goes on from y_m by Newton steps until the gap estimate is at most `gap`. Errors: MEMORY. */
+batten_status certifier_polish(certifier *c, const batten_search_problem *problem, double gap,
+                               double *y_m, batten_certificate *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* batten_search_certify_batch: the threads of the C path share the ends of a batch. */
+/* batten_search_certify_batch, batten_search_polish_batch: the threads of the C path share the ends of a batch. */
 #include "batch/certificate.h"
 #include "batch/workers.h"
 
@@ -11,6 +11,7 @@ typedef struct batch {
 	batten_precision precision; /* of the searches */
 	const batten_search_problem *problems;
 	const double *y_m;
+	double gap, *polished_m; /* polished_m: y_m, to be polished to gap, or NULL */
 	batten_certificate *certificates;
 } batch;
 
@@ -22,8 +23,11 @@ static batten_status run_on_reference(batch_work *work)
 	batten_status status = certifier_create(b->plan, b->precision, &c);
 	size_t which = 0;
 	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
-		status = certifier_run(&c, &b->problems[which], b->y_m + which * nodes,
-		                       &b->certificates[which]);
+		status = b->polished_m
+		             ? certifier_polish(&c, &b->problems[which], b->gap,
+		                                b->polished_m + which * nodes, &b->certificates[which])
+		             : certifier_run(&c, &b->problems[which], b->y_m + which * nodes,
+		                             &b->certificates[which]);
 	certifier_release(&c);
 	return status;
 }
@@ -80,25 +84,45 @@ static batten_status run_batch(batch *b, size_t count)
 	return status;
 }
 
+static batten_status judge(batten_context *context, const batten_grid *grid, size_t count,
+                           const batten_search_options *options, batch *b)
+{
+	batten_search_options chosen;
+	batten_status status = search_options_check(context, options, &chosen);
+	b->work = (batch_work){ .context = context,
+		                    .device = BATTEN_DEVICE_REFERENCE,
+		                    .run_reference = run_on_reference };
+	b->precision = chosen.precision;
+	chosen.precision = BATTEN_F64;
+	if (status == BATTEN_OK)
+		status = search_plan_create(context, grid, count, b->problems, &chosen, &b->plan);
+	if (status == BATTEN_OK && count > 0)
+		status = run_batch(b, count);
+	search_plan_destroy(b->plan);
+	return status;
+}
+
 batten_status batten_search_certify_batch(batten_context *context, const batten_grid *grid,
                                           size_t count, const batten_search_problem *problems,
                                           const batten_search_options *options, const double *y_m,
                                           batten_certificate *certificates)
 {
-	batch b = { .work = { .context = context,
-		                  .device = BATTEN_DEVICE_REFERENCE,
-		                  .run_reference = run_on_reference },
-		        .problems = problems,
+	batch b = { .problems = problems, .y_m = y_m, .certificates = certificates };
+	return judge(context, grid, count, options, &b);
+}
+
+batten_status batten_search_polish_batch(batten_context *context, const batten_grid *grid,
+                                         size_t count, const batten_search_problem *problems,
+                                         const batten_search_options *options, double gap,
+                                         double *y_m, batten_certificate *certificates)
+{
+	batch b = { .problems = problems,
 		        .y_m = y_m,
+		        .gap = gap,
+		        .polished_m = y_m,
 		        .certificates = certificates };
-	batten_search_options chosen;
-	batten_status status = search_options_check(context, options, &chosen);
-	b.precision = chosen.precision;
-	chosen.precision = BATTEN_F64;
-	if (status == BATTEN_OK)
-		status = search_plan_create(context, grid, count, problems, &chosen, &b.plan);
-	if (status == BATTEN_OK && count > 0)
-		status = run_batch(&b, count);
-	search_plan_destroy(b.plan);
-	return status;
+	if (!(gap > 0.0))
+		return batten_fail(context, BATTEN_USAGE,
+		                   "found a gap of %g to polish to, expected one above 0", gap);
+	return judge(context, grid, count, options, &b);
 }

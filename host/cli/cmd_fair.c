@@ -24,6 +24,7 @@ static const cli_command command = {
 		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n"
 		"  batten fair data/hulls/npl_parent.csv --keep volume_m3=0.01%,lcb_pct_lbp_fwd=0.01\n"
+		"  batten fair data/hulls/npl_parent.csv --precision f32 --polish 1e-10\n"
 		"  batten fair data/hulls/npl_parent.csv --method all --out compared\n",
 	.notes =
 		"Writes DIR/faired.csv, DIR/report.json, DIR/before.png, DIR/after.png and DIR/lines.svg; DIR is\n"
@@ -306,6 +307,9 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "keep", CLI_TEXT, &request->keep, "LIST",
 		  "volume_m3=0.1%,lcb_pct_lbp_fwd=0.05: keep these measures of the smoothed hull, at its draft, "
 		  "so close" },
+		{ "polish", CLI_NUMBER, &request->polish, "GAP",
+		  "finish in f64, by Newton steps, where gap_estimate is above this, e.g. 1e-9; with --precision "
+		  "f32 the search only screens" },
 		{ "lower", CLI_TEXT, &request->lower_path, "FILE", "lower offsets on the same table" },
 		{ "upper", CLI_TEXT, &request->upper_path, "FILE", "upper offsets on the same table" },
 		{ "no-smooth", CLI_FLAG, &request->no_smooth, NULL, "leave gross errors as they are" },
@@ -352,6 +356,7 @@ batten_status cli_fair(int argc, char **argv)
 		                     .vertices = UINT_MAX,
 		                     .max_cn = NAN,
 		                     .least_gain = NAN,
+		                     .polish = NAN,
 		                     .device = BATTEN_DEVICE_AUTO,
 		                     .precision = BATTEN_F64,
 		                     .argc = argc,

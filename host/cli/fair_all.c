@@ -53,8 +53,8 @@ static fair_request request_of(const fair_request *all, batten_fair_method metho
 		one.variables = "offsets";
 		one.fairness = "bending";
 		one.net = one.tangents = one.rounded = one.lock = one.max_distance = NULL;
-		one.lower_path = one.upper_path = NULL;
-		one.w1 = one.w2 = one.longitudinal = one.transverse = NAN;
+		one.lower_path = one.upper_path = one.keep = NULL;
+		one.w1 = one.w2 = one.longitudinal = one.transverse = one.polish = NAN;
 		if (net)
 			one.order = NULL;
 	}

@@ -15,6 +15,7 @@ typedef struct fair_request {
 	const char *max_distance, *lock, *keep, *lower_path, *upper_path;
 	const char *net, *order, *tangents, *rounded; /* NULL: not given */
 	double w1, w2, longitudinal, transverse;      /* NaN: not given */
+	double polish;                                /* NaN: not given */
 	const char *restore;                          /* NULL: not given */
 	unsigned order_sections, vertices;            /* UINT_MAX: not given */
 	double max_cn, least_gain;                    /* NaN: not given */

@@ -210,6 +210,12 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 		status = read_distance(request->max_distance, options);
 	if (status == BATTEN_OK && request->lock)
 		status = read_locks(request->lock, hull, options, locks);
+	if (!isnan(request->polish) && !(request->polish > 0.0))
+		return cli_usage("fair", "--polish %g: expected a gap above 0, e.g. 1e-9", request->polish);
+	if (!isnan(request->polish) && request->keep)
+		return cli_usage("fair", "--polish and --keep exclude each other");
+	if (!isnan(request->polish))
+		options->polish_gap = request->polish;
 	if (status == BATTEN_OK && request->keep)
 		status = read_keeps(request->keep, options, locks);
 	options->locks = locks->places;

@@ -81,6 +81,7 @@ static batten_status check_search(const fair_request *request, const batten_fair
 		         { "w2", !isnan(request->w2) },
 		         { "lock", request->lock != NULL },
 		         { "keep", request->keep != NULL },
+		         { "polish", !isnan(request->polish) },
 		         { "lower", request->lower_path != NULL },
 		         { "upper", request->upper_path != NULL },
 		         { "max-distance", request->max_distance != NULL },

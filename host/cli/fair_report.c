@@ -267,6 +267,7 @@ static json_t *search_json(const fair_job *job)
 	set(object, "objective_after", number(result->objective_end));
 	set(object, "last_step_m", number(result->last_step_m));
 	set(object, "gap_estimate", certificate ? number(certificate->gap_estimate) : json_null());
+	set(object, "polish_steps", certificate ? count(certificate->steps) : json_null());
 	set(object, "gradient_per_m", certificate ? number(certificate->gradient_per_m) : json_null());
 	set(object, "device", json_string(run->device));
 	set(object, "strict", json_boolean(run->strict));

@@ -73,7 +73,7 @@ static batten_status check_options(batten_context *context, const batten_fair_op
 	batten_status status = fair_pass_check(context, options);
 	if (status == BATTEN_OK)
 		status = check_variables(context, options);
-	return status == BATTEN_OK ? fairing_kept_check(context, options) : status;
+	return status == BATTEN_OK ? fairing_end_check(context, options) : status;
 }
 
 /* A faired table must not pass for the one it came from. */

@@ -68,7 +68,16 @@ static batten_status conclude(batten_fairing *fairing, const batten_fair_options
 	}
 	batten_certificate *certificate = &fairing->certificate;
 	if (status == BATTEN_OK)
-		status = batten_search_certify_batch(context, &grid, 1, &problem, search, y, certificate);
+		status = options->polish_gap > 0.0
+		             ? batten_search_polish_batch(context, &grid, 1, &problem, search,
+		                                          options->polish_gap, y, certificate)
+		             : batten_search_certify_batch(context, &grid, 1, &problem, search, y,
+		                                           certificate);
+	if (status == BATTEN_OK && certificate->steps > 0) {
+		result->objective_end = certificate->objective;
+		if (certificate->gap_estimate <= options->polish_gap)
+			result->end = BATTEN_SEARCH_CONVERGED;
+	}
 	if (status == BATTEN_OK && problem.target_m != plain.target_m) {
 		batten_certificate of_plain;
 		status = batten_search_certify_batch(context, &grid, 1, &plain, search, y, &of_plain);

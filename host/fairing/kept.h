@@ -5,8 +5,9 @@
 #include "fairing/box.h"
 #include "fairing/fairing.h"
 
-/* Quantity and tolerance of each. Errors: USAGE. */
-batten_status fairing_kept_check(batten_context *context, const batten_fair_options *options);
+/* What is asked of the end of a search: quantity and tolerance of each measure to keep, the gap to polish
+ * to. Errors: USAGE. */
+batten_status fairing_end_check(batten_context *context, const batten_fair_options *options);
 
 /* y is where the search of the problem ended. Where a measure is kept and lies beyond its tolerance
  * there, y becomes the least of the same objective with all of them within; *problem then carries the

@@ -469,6 +469,7 @@ typedef struct batten_certificate {
 	 * is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
 	double gap_estimate;
 	size_t free_count;
+	unsigned steps;   /* that batten_search_polish_batch took */
 	char message[96]; /* why there is no estimate; else "" */
 } batten_certificate;
 
@@ -483,6 +484,17 @@ BATTEN_API batten_status batten_search_certify_batch(batten_context *context,
                                                      const batten_search_options *options,
                                                      const double *y_m,
                                                      batten_certificate *certificates);
+
+/* Goes on from the ends y_m of count searches, in double, until the gap estimate of each is at most `gap`
+ * (above 0): steps of Newton's method over the free offsets, kept in the box, halved until the objective
+ * falls. So it finishes what f32 has screened. Certificates are of the new ends; one whose Hessian is
+ * not positive definite, or where no step gains, stays above gap. Else as batten_search_certify_batch. */
+BATTEN_API batten_status batten_search_polish_batch(batten_context *context,
+                                                    const batten_grid *grid, size_t count,
+                                                    const batten_search_problem *problems,
+                                                    const batten_search_options *options,
+                                                    double gap, double *y_m,
+                                                    batten_certificate *certificates);
 
 /* ------------------------------------------------------------------------------------------------
  * Varying a parent hull
@@ -1737,7 +1749,10 @@ typedef struct batten_fair_options {
 	/* Measures to keep, borrowed for the call; of OFFSETS, w2 above 0. The weight is chosen without
 	 * them. */
 	const batten_keep *keep;
-	size_t keep_count;          /* at most BATTEN_KEEP_LIMIT */
+	size_t keep_count; /* at most BATTEN_KEEP_LIMIT */
+	double
+		polish_gap; /* batten_search_polish_batch() to this; 0 (default): not; of OFFSETS, without
+	                      measures to keep */
 	batten_variables variables; /* BATTEN_VARIABLES_OFFSETS */
 	batten_fairness fairness;   /* of both, in place of search.fairness; no VARIATION with
 	                                     OFFSETS, no weights of directions with NET */

@@ -65,6 +65,12 @@ holds 'what it costs' 'c > f' c="$(member out/report.json search objective_after
 	f="$(member free/report.json search objective_after)"
 grep -q '"measure": "volume_m3"' out/report.json || fail 'what was kept is not in the report'
 expect_json out/report.json
+expect 0 fair "$hull" $soft --precision f32 --polish 1e-12 --out out
+holds 'polished' 'gap <= 1e-12 && steps > 0' gap="$(member out/report.json search gap_estimate)" \
+	steps="$(member out/report.json search polish_steps)"
+expect_json out/report.json
+expect 2 fair "$hull" --polish 0 --out out
+expect 2 fair "$hull" --polish 1e-9 --keep $keep --out out
 for bad in volume=1% volume_m3 volume_m3= volume_m3=0 volume_m3=1x volume_m3=-1%; do
 	expect 2 fair "$hull" --keep $bad --out out
 done

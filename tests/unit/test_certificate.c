@@ -223,6 +223,56 @@ static void test_batch(void **state)
 	search_case_close(&c);
 }
 
+/* Polishing: from f32's end, and from where a few iterations leave a search, to the oracle's minimum, in
+ * the box; a batch of threads as one by one. */
+static void test_polish(void **state)
+{
+	(void)state;
+	enum { COUNT = 4 };
+	for (size_t h = 0; h < HULL_COUNT; h += 2) {
+		search_case c = search_case_open(hulls[h], 0.01, true);
+		batten_search_problem problems[COUNT];
+		batten_certificate found[COUNT], alone;
+		double *y = calloc((COUNT + 1) * c.nodes, sizeof *y);
+		assert_non_null(y);
+		batten_search_options options = reference_options();
+		options.precision = BATTEN_F32;
+		for (size_t p = 0; p < COUNT; p++) {
+			problems[p] = search_case_problem(&c, 1.0, p % 2 ? 1e5 : 1e3);
+			options.iteration_limit = p < 2 ? 400 : 4;
+			search(&c, &problems[p], &options, y + p * c.nodes);
+			assert_true(certify(&c, &problems[p], &options, y + p * c.nodes).gap_estimate > 1e-12);
+		}
+		memcpy(y + COUNT * c.nodes, y + 3 * c.nodes, c.nodes * sizeof *y);
+		assert_int_equal(batten_search_polish_batch(c.context, &c.grid, COUNT, problems, &options,
+		                                            1e-12, y, found),
+		                 BATTEN_OK);
+		assert_int_equal(batten_search_polish_batch(c.context, &c.grid, 1, &problems[3], &options,
+		                                            1e-12, y + COUNT * c.nodes, &alone),
+		                 BATTEN_OK);
+		assert_memory_equal(y + COUNT * c.nodes, y + 3 * c.nodes, c.nodes * sizeof *y);
+		assert_int_equal(alone.steps, found[3].steps);
+		for (size_t p = 0; p < COUNT; p++) {
+			const oracle_problem known = search_case_oracle(&c, 1.0, problems[p].w2);
+			oracle_minimum minimum;
+			assert_true(oracle_minimise(&known, y + COUNT * c.nodes, &minimum));
+			const long double gap = oracle_objective(&known, y + p * c.nodes) / minimum.objective -
+			                        1.0L;
+			assert_true(found[p].steps > 0 && found[p].gap_estimate <= 1e-12);
+			assert_true(fabsl(gap) <= 1e-11L);
+			for (size_t n = 0; n < c.nodes; n++)
+				if (batten_hull_nodes(c.hull)[n] != BATTEN_NODE_OUTSIDE)
+					assert_true(y[p * c.nodes + n] >= problems[p].lower_m[n] &&
+					            y[p * c.nodes + n] <= problems[p].upper_m[n]);
+		}
+		assert_int_equal(
+			batten_search_polish_batch(c.context, &c.grid, 1, problems, &options, 0.0, y, found),
+			BATTEN_USAGE);
+		free(y);
+		search_case_close(&c);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -231,6 +281,7 @@ int main(void)
 		cmocka_unit_test(test_estimate_of_every_fairness),
 		cmocka_unit_test(test_where_there_is_none),
 		cmocka_unit_test(test_batch),
+		cmocka_unit_test(test_polish),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
