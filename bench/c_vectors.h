@@ -19,6 +19,8 @@ typedef long long8 __attribute__((vector_size(64)));
 #define WORD(name) name##_pd
 #define MASK_OF(a) _mm512_movepi64_mask((__m512i)(a))
 #define convert_double8(a) (a)
+#define convert_char8(a) (a)
+#define as_ulong(a) MASK_OF(a)
 #define vstore8(a, offset, to) _mm512_storeu_pd(to, a)
 typedef double8 vector;
 #else
@@ -32,6 +34,8 @@ typedef int int16 __attribute__((vector_size(64)));
 #define WORD(name) name##_ps
 #define MASK_OF(a) _mm512_movepi32_mask((__m512i)(a))
 #define convert_float16(a) (a)
+#define convert_char16(a) (a)
+#define as_long2(a) (a)
 #define vstore16(a, offset, to) _mm512_storeu_ps(to, a)
 typedef float16 vector;
 #endif

@@ -1,6 +1,7 @@
 #include "variation/measure.h"
 
 #include <math.h>
+#include <string.h>
 
 bool variation_tables_fit(const batten_hull *parent, const batten_vary_options *options)
 {
@@ -159,11 +160,16 @@ static batten_status fill_lists(const batten_hull *hull, variants_plan *plan)
 	int32_t *lists = batten_allocate(plan->context, lines, (most + 1) * sizeof *lists);
 	if (!lists)
 		return BATTEN_MEMORY;
-	size_t used = lines;
+	size_t used = lines, before = 0;
 	for (size_t w = 0; w < lines; w++) {
 		const size_t length = list_line(hull, w, lists + used);
 		lists[w] = length > 0 ? (int32_t)used : 0;
-		used += length;
+		/* lines alike share a list, by which the kernel knows them */
+		if (length > 0 && length == before &&
+		    memcmp(lists + used, lists + used - before, length * sizeof *lists) == 0)
+			lists[w] = (int32_t)(used - before);
+		else
+			used += before = length;
 	}
 	batten_release(plan->context, plan->lists);
 	plan->lists = lists;

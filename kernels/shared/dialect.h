@@ -76,7 +76,17 @@ typedef int mask;
 typedef BATTEN_PASTE(BATTEN_REAL_NAME, BATTEN_LANES) real;
 typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #define CHOOSE(condition, when_true, when_false) select(when_false, when_true, condition)
-#define ANY(condition) any(condition)
+/* A lane as a byte, all bytes as a number: PoCL makes a branch a lane pair of any(). */
+#define BATTEN_BYTES BATTEN_PASTE(convert_char, BATTEN_LANES)
+#if BATTEN_LANES == 2
+#define ANY(condition) (as_ushort(BATTEN_BYTES(condition)) != 0)
+#elif BATTEN_LANES == 4
+#define ANY(condition) (as_uint(BATTEN_BYTES(condition)) != 0)
+#elif BATTEN_LANES == 8
+#define ANY(condition) (as_ulong(BATTEN_BYTES(condition)) != 0)
+#else
+#define ANY(condition) any(as_long2(BATTEN_BYTES(condition)) != 0)
+#endif
 #endif
 #if !defined(SPREAD)
 #define SPREAD(a) ((real)(a))

@@ -66,9 +66,9 @@ SHARED_FUNCTION void variants_natural_bend(variants_line line, int slots, STATE 
 	bend[slots - 1] = ZERO;
 	ROLLED
 	for (int i = slots - 2; i >= 0; i--) {
-		const real width = line.at[i + 1] - line.at[i];
-		after = FUSED(-width, after, bend[i]) * line.pivot[i];
-		after = CHOOSE(line.pivot[i] != ZERO, after, ZERO);
+		/* each waits for the one before: as little as can be between them; a pivot of 0 gives 0 */
+		const real width = line.at[i + 1] - line.at[i], pivot = line.pivot[i];
+		after = FUSED(-(width * pivot), after, bend[i] * pivot);
 		bend[i] = after;
 	}
 }

@@ -68,6 +68,7 @@ typedef struct variants_run {
 	real aft, fore;   /* slots of the ends off the table; below 0: none */
 	real first, last; /* first > last: no points */
 	mask irregular;
+	int ended; /* the waterline may end off the table in some lane */
 } variants_run;
 
 SHARED_FUNCTION mask variants_station_on(const variants_state *s, int w, int slot)
@@ -79,6 +80,8 @@ SHARED_FUNCTION real variants_slot_y(const variants_state *s, int w, int slot, v
 {
 	GLOBAL const scalar *ends = TABLE(s, ENDS) + 4 * w;
 	const real y = slot > 0 && slot + 1 < s->slots ? s->y[w * s->stations + slot - 1] : ZERO;
+	if (!run.ended)
+		return y;
 	return CHOOSE(run.aft == NUMBER(slot), SPREAD(ends[1]),
 	              CHOOSE(run.fore == NUMBER(slot), SPREAD(ends[3]), y));
 }
@@ -87,6 +90,8 @@ SHARED_FUNCTION real variants_slot_x(const variants_state *s, int w, int slot, v
 {
 	GLOBAL const scalar *ends = TABLE(s, ENDS) + 4 * w;
 	const real x = slot > 0 && slot + 1 < s->slots ? SPREAD(TABLE(s, X)[slot - 1]) : NONE;
+	if (!run.ended)
+		return x;
 	return CHOOSE(run.aft == NUMBER(slot), SPREAD(ends[0]),
 	              CHOOSE(run.fore == NUMBER(slot), SPREAD(ends[2]), x));
 }
@@ -97,8 +102,8 @@ SHARED_FUNCTION variants_run variants_place_ends(const variants_state *s, int w)
 	GLOBAL const scalar *ends = TABLE(s, ENDS) + 4 * w;
 	GLOBAL const scalar *x = TABLE(s, X);
 	const mask aft = SPREAD(ends[0]) < NONE, fore = SPREAD(ends[2]) < NONE;
-	variants_run run = { -ONE, -ONE, ZERO, ZERO, ZERO > ZERO };
-	if (!ANY(aft | fore))
+	variants_run run = { -ONE, -ONE, ZERO, ZERO, ZERO > ZERO, ANY(aft | fore) };
+	if (!run.ended)
 		return run;
 	real lowest = NUMBER(s->slots), highest = -ONE;
 	ROLLED
@@ -135,12 +140,12 @@ SHARED_FUNCTION variants_run variants_run_of(const variants_state *s, int w)
 		const real here = NUMBER(i);
 		const mask on = variants_station_on(s, w, i) | (run.aft == here) | (run.fore == here);
 		const mask positive = on & (variants_slot_y(s, w, i, run) > ZERO);
-		gap = CHOOSE(on, MOST_OF(gap, hole), gap);
-		lowest = CHOOSE(on, LEAST_OF(lowest, here), lowest);
+		gap = MOST_OF(gap, CHOOSE(on, hole, -ONE));
+		lowest = LEAST_OF(lowest, CHOOSE(on, here, far));
 		highest = CHOOSE(on, here, highest);
-		first = CHOOSE(positive, LEAST_OF(first, here), first);
+		first = LEAST_OF(first, CHOOSE(positive, here, far));
 		last = CHOOSE(positive, here, last);
-		hole = CHOOSE(!on & (highest >= ZERO), here, hole);
+		hole = CHOOSE(!on & (lowest < far), here, hole);
 	}
 	const mask none = last < ZERO;
 	run.first = CHOOSE(none, lowest, MOST_OF(lowest, first - ONE));
@@ -226,17 +231,18 @@ SHARED_FUNCTION void variants_find_section(const variants_state *s, int station)
 	const real far = NUMBER(s->waterlines);
 	real lowest = far, positive = far, hole = -ONE, first = far, before = ZERO, y = ZERO,
 		 under = ZERO;
+	/* least and most of what each waterline would be, so that none waits for the one before */
 	ROLLED
 	for (int w = 0; w < s->waterlines; w++) {
 		const real here = NUMBER(w), on = s->on[w * s->stations + station];
 		const mask is_on = on > ZERO;
 		under = y;
 		y = s->y[w * s->stations + station];
-		const mask begins = is_on & (y > ZERO) & (positive == far);
-		lowest = CHOOSE(is_on & (lowest == far), here, lowest);
-		hole = CHOOSE(!is_on & (lowest < far), here, hole);
-		positive = CHOOSE(begins, here, positive);
-		first = CHOOSE(begins, CHOOSE(before > ZERO, here - ONE, here), first);
+		const mask wide = is_on & (y > ZERO);
+		lowest = LEAST_OF(lowest, CHOOSE(is_on, here, far));
+		hole = MOST_OF(hole, CHOOSE(!is_on & (lowest < far), here, -ONE));
+		positive = LEAST_OF(positive, CHOOSE(wide, here, far));
+		first = LEAST_OF(first, CHOOSE(wide, CHOOSE(before > ZERO, here - ONE, here), far));
 		before = on;
 	}
 	const mask none = positive == far;

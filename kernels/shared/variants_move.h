@@ -133,18 +133,38 @@ SHARED_FUNCTION mask variants_move_points(const variants_state *s, variants_shif
 	return variants_natural(line, s->slots, ZERO, shift->last);
 }
 
-/* Half-breadth of the parent's waterline in a slot. */
-SHARED_FUNCTION real variants_moved_y(const variants_state *s, const variants_shift *shift, int w,
-                                      int q, int bodies)
+/* The parent's half-breadths as moved points have them, by numbers of the compiler's own: what lies in
+ * memory it would read again after every store. */
+typedef struct variants_source {
+	GLOBAL const scalar *y, *middle;
+	int stations, before, within, bodies;
+} variants_source;
+
+SHARED_FUNCTION variants_source variants_source_of(const variants_state *s,
+                                                   const variants_shift *shift)
 {
-	const int before = s->shape[VARIANTS_BEFORE_BODY], within = s->shape[VARIANTS_WITHIN_BODY];
-	GLOBAL const scalar *y = TABLE(s, PARENT) + w * s->stations;
-	const real plain = SPREAD(y[variants_station(s, q)]);
-	if (!bodies || q < before)
+	const variants_source from = { TABLE(s, PARENT),
+		                           TABLE(s, MIDDLE),
+		                           s->stations,
+		                           s->shape[VARIANTS_BEFORE_BODY],
+		                           s->shape[VARIANTS_WITHIN_BODY],
+		                           ANY(shift->body) };
+	return from;
+}
+
+/* Half-breadth of the parent's waterline in a slot. */
+SHARED_FUNCTION real variants_moved_y(variants_source from, const variants_shift *shift, int w,
+                                      int q)
+{
+	GLOBAL const scalar *y = from.y + w * from.stations;
+	const int last = from.stations - 1;
+	const real plain = SPREAD(y[q < last ? q : last]);
+	if (!from.bodies || q < from.before)
 		return plain;
-	const real middle = SPREAD(TABLE(s, MIDDLE)[w]);
-	const real one = q == before ? middle : SPREAD(y[variants_station(s, q - 1 + within)]);
-	const real two = q <= before + 1 ? middle : SPREAD(y[variants_station(s, q - 2 + within)]);
+	const real middle = SPREAD(from.middle[w]);
+	const int after = q - 1 + from.within;
+	const real one = q == from.before ? middle : SPREAD(y[after < last ? after : last]);
+	const real two = q <= from.before + 1 ? middle : SPREAD(y[after - 1 < last ? after - 1 : last]);
 	return variants_pick(shift, plain, one, two);
 }
 
@@ -162,7 +182,7 @@ SHARED_FUNCTION void variants_bend_line(const variants_state *s, const variants_
 {
 	STATE real *bend = s->bend + w * s->slots;
 	const variants_line room = variants_room(s);
-	const int bodies = ANY(shift->body);
+	const variants_source from = variants_source_of(s, shift);
 	if (variants_is_empty(s, w)) {
 		ROLLED
 		for (int q = 0; q < s->slots; q++)
@@ -171,45 +191,53 @@ SHARED_FUNCTION void variants_bend_line(const variants_state *s, const variants_
 	}
 	ROLLED
 	for (int q = 0; q < s->slots; q++)
-		room.value[q] = variants_moved_y(s, shift, w, q, bodies);
+		room.value[q] = variants_moved_y(from, shift, w, q);
 	variants_natural_bend(variants_moved_line(s), s->slots, room.value, bend);
 }
 
-/* All waterlines at one station. */
-SHARED_FUNCTION void variants_take_station(const variants_state *s, const variants_shift *shift,
-                                           int station)
+/* All waterlines at one station. No lane has it before slot from_slot; returns the same for stations beyond
+ * it. */
+SHARED_FUNCTION int variants_take_station(const variants_state *s, const variants_shift *shift,
+                                          int station, int from_slot)
 {
 	const variants_line line = variants_moved_line(s);
-	GLOBAL const scalar *parent = TABLE(s, PARENT);
-	const int bodies = ANY(shift->body);
+	const variants_source from = variants_source_of(s, shift);
+	const int waterlines = s->waterlines, slots = s->slots;
 	const real x = SPREAD(TABLE(s, X)[station]);
 	const real least = SPREAD(TABLE(s, FORMULA)[VARIANTS_FORMULA_LEAST]);
 	const real sixth = SPREAD(LITERAL(0.16666666666666666));
 	const mask in_body = shift->body & (x >= shift->body_from) & (x <= shift->body_to);
-	const int ends = station == 0 || station == s->stations - 1;
+	const int ends = station == 0 || station == from.stations - 1;
+	STATE real *y = s->y + station;
 	ROLLED
-	for (int w = 0; w < s->waterlines; w++)
-		s->y[w * s->stations + station] = ends ? SPREAD(parent[w * s->stations + station]) : ZERO;
+	for (int w = 0; w < waterlines; w++)
+		y[w * from.stations] = ends ? SPREAD(from.y[w * from.stations + station]) : ZERO;
+	int lowest = slots;
 	ROLLED
-	for (int q = 0; q + 1 < s->slots && !ends; q++) {
-		const mask here = (line.at[q] <= x) & (x < line.at[q + 1]) & (NUMBER(q) < shift->last);
+	for (int q = from_slot; q + 1 < slots && !ends; q++) {
+		const mask runs = (line.at[q] <= x) & (NUMBER(q) < shift->last);
+		const mask here = runs & (x < line.at[q + 1]);
+		if (!ANY(runs))
+			break;
 		if (!ANY(here))
 			continue;
+		lowest = lowest < q ? lowest : q;
 		const real width = line.at[q + 1] - line.at[q];
 		const real u = (x - line.at[q]) * line.step[q], v = ONE - u;
 		const real bends = -(width * width) * sixth * (u * v);
 		const real a = bends * (ONE + v), b = bends * (ONE + u);
+		STATE const real *bend = s->bend + q;
 		ROLLED
-		for (int w = 0; w < s->waterlines; w++) {
-			STATE const real *bend = s->bend + w * s->slots + q;
-			STATE real *to = s->y + w * s->stations + station;
-			const real y0 = variants_moved_y(s, shift, w, q, bodies);
-			const real y1 = variants_moved_y(s, shift, w, q + 1, bodies);
-			real y = FUSED(v, y0, FUSED(u, y1, FUSED(a, bend[0], b * bend[1])));
-			y = CHOOSE(in_body, SPREAD(TABLE(s, MIDDLE)[w]), y);
-			*to = CHOOSE(here, CHOOSE(y > least, y, ZERO), *to);
+		for (int w = 0; w < waterlines; w++, bend += slots) {
+			STATE real *to = y + w * from.stations;
+			const real y0 = variants_moved_y(from, shift, w, q);
+			const real y1 = variants_moved_y(from, shift, w, q + 1);
+			real found = FUSED(v, y0, FUSED(u, y1, FUSED(a, bend[0], b * bend[1])));
+			found = CHOOSE(in_body, SPREAD(from.middle[w]), found);
+			*to = CHOOSE(here, CHOOSE(found > least, found, ZERO), *to);
 		}
 	}
+	return lowest < slots ? lowest : from_slot;
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -239,8 +267,16 @@ SHARED_FUNCTION void variants_take_nodes(const variants_state *s, int w)
 	}
 }
 
-/* Fills the '?' of a waterline from its other points, by a natural spline (host/hull/hull_fill.c). */
-SHARED_FUNCTION void variants_fill(const variants_state *s, int w)
+/* The rows of a spline that stand in the room of a work-item. */
+typedef struct variants_rows {
+	int list; /* of points; 0: none */
+	real first, last;
+	mask ascend;
+} variants_rows;
+
+/* Fills the '?' of a waterline from its other points, by a natural spline (host/hull/hull_fill.c). The
+ * rows are those of the waterline before where the same points stand in them. */
+SHARED_FUNCTION void variants_fill(const variants_state *s, int w, variants_rows *rows)
 {
 	const variants_line line = variants_room(s);
 	GLOBAL const int *list = s->lists + s->lists[w];
@@ -253,14 +289,22 @@ SHARED_FUNCTION void variants_fill(const variants_state *s, int w)
 	for (int j = 0; j < known; j++) {
 		const int node = w * s->stations + list[1 + j];
 		const mask on = s->on[node] > ZERO;
-		line.at[j] = SPREAD(x[list[1 + j]]);
 		line.value[j] = s->y[node];
 		gap = CHOOSE(on, MOST_OF(gap, hole), gap);
 		first = CHOOSE(on, LEAST_OF(first, NUMBER(j)), first);
 		last = CHOOSE(on, NUMBER(j), last);
 		hole = CHOOSE(!on & (last >= ZERO), NUMBER(j), hole);
 	}
-	mask good = variants_natural(line, known, first, last) & (gap < ZERO);
+	if (rows->list != s->lists[w] || ANY((first != rows->first) | (last != rows->last))) {
+		ROLLED
+		for (int j = 0; j < known; j++)
+			line.at[j] = SPREAD(x[list[1 + j]]);
+		rows->list = s->lists[w];
+		rows->first = first;
+		rows->last = last;
+		rows->ascend = variants_natural(line, known, first, last);
+	}
+	mask good = rows->ascend & (gap < ZERO);
 	variants_natural_bend(line, known, line.value, line.bend);
 	ROLLED
 	for (int n = 0; n < unknown; n++) {
@@ -292,17 +336,19 @@ SHARED_FUNCTION mask variants_move(const variants_state *s, variants_shift *shif
 	for (int w = WORK_ITEM; w < s->waterlines; w += WORK_ITEMS)
 		variants_bend_line(s, shift, w);
 	WAIT;
+	int from_slot = 0;
 	ROLLED
 	for (int i = WORK_ITEM; i < s->stations; i += WORK_ITEMS)
-		variants_take_station(s, shift, i);
+		from_slot = variants_take_station(s, shift, i, from_slot);
 	WAIT;
 	ROLLED
 	for (int w = WORK_ITEM; w < s->waterlines; w += WORK_ITEMS)
 		variants_take_nodes(s, w);
 	WAIT;
+	variants_rows rows = { 0, -ONE, -ONE, ZERO > ZERO };
 	ROLLED
 	for (int w = WORK_ITEM; w < s->waterlines; w += WORK_ITEMS)
-		variants_fill(s, w);
+		variants_fill(s, w, &rows);
 	WAIT;
 	return good;
 }
