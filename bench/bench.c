@@ -137,30 +137,57 @@ static batten_status prove_same(const bench_settings *settings, const bench_cont
 	return status;
 }
 
+/* What one core can do, measured beside each pair: the clock changes with its neighbours' load. */
+typedef struct limits {
+	double operations[BENCH_PAIRS], bytes[BENCH_PAIRS]; /* a second; 0: not measured */
+} limits;
+
+static void measure_limits(const bench_contest *contest, batten_precision precision, int pair,
+                           limits *l)
+{
+	l->operations[pair] = contest->operations > 0.0 ? bench_peak(precision) : 0.0;
+	l->bytes[pair] = contest->bytes > 0.0 ? bench_stream() : 0.0;
+}
+
+static double share_of(double amount, const double *seconds, const double *limit)
+{
+	double share[BENCH_PAIRS];
+	for (int p = 0; p < BENCH_PAIRS; p++)
+		share[p] = limit[p] > 0.0 ? 100.0 * amount / seconds[p] / limit[p] : 0.0;
+	return bench_median(share);
+}
+
+static void judge_limits(const bench_contest *contest, const bench_pairs *pairs, const limits *l,
+                         bench_row *row)
+{
+	const double computed = share_of(contest->operations, pairs->value, l->operations);
+	const double moved = share_of(contest->bytes, pairs->value, l->bytes);
+	const bool memory = moved > computed;
+	row->percent_of_peak = memory ? moved : computed;
+	row->peak = bench_median(memory ? l->bytes : l->operations);
+	if (row->percent_of_peak > 0.0)
+		row->bound = memory ? "memory" : "multiply-adds";
+}
+
 batten_status bench_against_reference(const bench_settings *settings, const bench_contest *contest,
                                       bench_row *row)
 {
 	bench_pairs pairs;
-	double share[BENCH_PAIRS] = { 0.0 };
-	const bool with_peak = contest->operations > 0.0 && bench_is_cpu(settings);
+	limits peaks = { { 0.0 }, { 0.0 } };
 	batten_status status = prove_same(settings, contest, row);
 	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
 		status = timed(settings, contest, settings->device, row->precision, &pairs.value[p]);
 		if (status == BATTEN_OK)
 			status = timed(settings, contest, BATTEN_DEVICE_REFERENCE, row->precision,
 			               &pairs.reference[p]);
-		/* Beside the pair: the clock of a core changes with its neighbours' load. */
-		const double peak = with_peak ? bench_peak(row->precision) : 0.0;
-		share[p] = peak > 0.0 ? contest->operations / pairs.value[p] / peak : 0.0;
-		const double stream = with_peak && contest->bytes > 0.0 ? bench_stream() : 0.0;
-		const double moved = stream > 0.0 ? contest->bytes / pairs.value[p] / stream : 0.0;
-		share[p] = moved > share[p] ? moved : share[p];
+		if (bench_is_cpu(settings))
+			measure_limits(contest, row->precision, p, &peaks);
 	}
 	if (status != BATTEN_OK)
 		return status;
 	row->reference = "reference";
 	bench_pairs_judge(&pairs, contest->scale, row);
-	row->percent_of_peak = 100.0 * bench_median(share);
+	judge_limits(contest, &pairs, &peaks, row);
 	settings->emit(row, settings->user);
 	return BATTEN_OK;
 }

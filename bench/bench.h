@@ -12,9 +12,11 @@ typedef struct bench_row {
 	const char *unit, *reference;
 	double value, reference_value;
 	double ratio, ratio_low, ratio_high;
-	/* Of one core's multiply-adds, or of what memory gives one core, whichever it uses more of;
-	 * measured in the same run; 0: not known. */
-	double percent_of_peak;
+	/* Of one core's multiply-adds, or of what memory gives one core, whichever it uses more of; measured
+	 * in the same run; 0: not known. bound: which of the two, or NULL; peak: operations or bytes a
+	 * second. */
+	double percent_of_peak, peak;
+	const char *bound;
 } bench_row;
 
 typedef struct bench_settings {

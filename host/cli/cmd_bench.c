@@ -13,7 +13,9 @@ static const cli_command command = {
 	.example = "  batten bench search.multilevel --json\n",
 	.notes =
 		"Values and reference values are medians of interleaved pairs, in CPU time on CPUs and wall\n"
-		"time on other devices; ratio: how many times faster than the reference, [95 % interval].\n"
+		"time on other devices; ratio: how many times faster than the reference, [95 % interval];\n"
+		"share of what one core's multiply-adds or its memory give, whichever is larger, measured\n"
+		"beside each pair.\n"
 		"The results are compared before anything is timed.\n",
 };
 
@@ -27,19 +29,23 @@ static void emit(const bench_row *row, void *user)
 	output *out = user;
 	const char *precision = row->precision == BATTEN_F64 ? "f64" : "f32";
 	if (!out->as_json) {
-		(void)printf("%-18s %-24s %s  %10.4g %s, %s %10.4g: ratio %.3g [%.3g, %.3g]  %s\n",
-		             row->name, row->case_name, precision, row->value, row->unit, row->reference,
-		             row->reference_value, row->ratio, row->ratio_low, row->ratio_high,
-		             row->device);
+		(void)printf("%-18s %-24s %s  %10.4g %s, %s %10.4g: ratio %.3g [%.3g, %.3g]", row->name,
+		             row->case_name, precision, row->value, row->unit, row->reference,
+		             row->reference_value, row->ratio, row->ratio_low, row->ratio_high);
+		if (row->bound)
+			(void)printf(", %.3g %% of %s (%.3g/s)", row->percent_of_peak, row->bound, row->peak);
+		(void)printf("  %s\n", row->device);
 		(void)fflush(stdout);
 		return;
 	}
 	json_t *object = json_pack(
-		"{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:o}", "name", row->name, "case",
-		row->case_name, "precision", precision, "device", row->device, "value", row->value, "unit",
-		row->unit, "reference", row->reference, "reference_value", row->reference_value, "ratio",
-		row->ratio, "ratio_low", row->ratio_low, "ratio_high", row->ratio_high, "percent_of_peak",
-		row->percent_of_peak > 0.0 ? json_real(row->percent_of_peak) : json_null());
+		"{s:s, s:s, s:s, s:s, s:f, s:s, s:s, s:f, s:f, s:f, s:f, s:o, s:s?, s:o}", "name",
+		row->name, "case", row->case_name, "precision", precision, "device", row->device, "value",
+		row->value, "unit", row->unit, "reference", row->reference, "reference_value",
+		row->reference_value, "ratio", row->ratio, "ratio_low", row->ratio_low, "ratio_high",
+		row->ratio_high, "percent_of_peak",
+		row->percent_of_peak > 0.0 ? json_real(row->percent_of_peak) : json_null(), "bound",
+		row->bound, "peak_per_s", row->peak > 0.0 ? json_real(row->peak) : json_null());
 	(void)json_array_append_new(out->list, object);
 }
 

@@ -41,10 +41,10 @@ SHARED_FUNCTION void pass_work_tile(const pass_program *p, int row, GLOBAL real 
 	ROLLED
 	for (int n = p->row_first[row]; n < end; n += PASS_TILE) {
 		const real read = state[p->term_index[n]];
-		a += SPREAD(p->term_factor[n]) * read;
-		b += SPREAD(p->term_factor[n + 1]) * read;
-		c += SPREAD(p->term_factor[n + 2]) * read;
-		d += SPREAD(p->term_factor[n + 3]) * read;
+		a = FUSED(SPREAD(p->term_factor[n]), read, a);
+		b = FUSED(SPREAD(p->term_factor[n + 1]), read, b);
+		c = FUSED(SPREAD(p->term_factor[n + 2]), read, c);
+		d = FUSED(SPREAD(p->term_factor[n + 3]), read, d);
 	}
 	state[p->row_target[row]] = a;
 	state[p->row_target[row + 1]] = b;
