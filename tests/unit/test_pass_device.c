@@ -9,20 +9,31 @@ typedef struct batch {
 	double *y, *found, *known;
 } batch;
 
-static batten_pass *make_pass(batten_context *context, const batten_hull *hull, int method,
-                              batten_precision precision, int device)
+static batten_pass *make_pass_of(batten_context *context, const batten_hull *hull,
+                                 batten_pass_options options, int device)
+{
+	batten_pass *pass = NULL;
+	options.device = device;
+	if (batten_pass_create(context, hull, &options, &pass) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(context));
+	return pass;
+}
+
+static batten_pass_options options_of(int method, batten_precision precision)
 {
 	batten_pass_options options;
-	batten_pass *pass = NULL;
 	batten_pass_options_default(&options);
 	options.method = (batten_fair_method)method;
 	options.order = 4;
 	options.order_sections = 3;
 	options.precision = precision;
-	options.device = device;
-	if (batten_pass_create(context, hull, &options, &pass) != BATTEN_OK)
-		fail_msg("%s", batten_context_error(context));
-	return pass;
+	return options;
+}
+
+static batten_pass *make_pass(batten_context *context, const batten_hull *hull, int method,
+                              batten_precision precision, int device)
+{
+	return make_pass_of(context, hull, options_of(method, precision), device);
 }
 
 /* The hull, each time with other noise. */
@@ -51,11 +62,27 @@ static void release_batch(batch *b)
 	free(b->known);
 }
 
-static void check_equal(batten_context *context, const batten_hull *hull, int method,
-                        batten_precision precision)
+/* Batches the other way round: hull by hull the same. */
+static void check_order(batten_context *context, const batten_pass *pass, const batch *b)
 {
-	batten_pass *pass = make_pass(context, hull, method, precision, BATTEN_DEVICE_AUTO);
-	batten_pass *plain = make_pass(context, hull, method, precision, BATTEN_DEVICE_REFERENCE);
+	const size_t size = b->values * sizeof *b->y;
+	double *turned = malloc(2 * HULLS * size);
+	assert_non_null(turned);
+	double *out = turned + HULLS * b->values;
+	for (size_t h = 0; h < HULLS; h++)
+		memcpy(turned + h * b->values, b->y + (HULLS - 1 - h) * b->values, size);
+	assert_int_equal(batten_pass_batch(context, pass, HULLS, 3, turned, out, NULL), BATTEN_OK);
+	for (size_t h = 0; h < HULLS; h++)
+		assert_memory_equal(out + h * b->values, b->known + (HULLS - 1 - h) * b->values, size);
+	free(turned);
+}
+
+static void check_equal(batten_context *context, const batten_hull *hull,
+                        batten_pass_options options)
+{
+	const batten_precision precision = options.precision;
+	batten_pass *pass = make_pass_of(context, hull, options, BATTEN_DEVICE_AUTO);
+	batten_pass *plain = make_pass_of(context, hull, options, BATTEN_DEVICE_REFERENCE);
 	batch b = make_batch(pass, hull);
 	const size_t size = HULLS * b.values * sizeof *b.y;
 	batten_run run;
@@ -63,6 +90,7 @@ static void check_equal(batten_context *context, const batten_hull *hull, int me
 	assert_true(run.strict);
 	assert_int_equal(batten_pass_batch(context, plain, HULLS, 3, b.y, b.known, NULL), BATTEN_OK);
 	assert_memory_equal(b.found, b.known, size);
+	check_order(context, pass, &b);
 	/* Alone, as in the batch; and three iterations are three times one. */
 	double *one = b.found;
 	const size_t last = (HULLS - 1) * b.values;
@@ -87,8 +115,18 @@ static void test_equal(void **state)
 	for (size_t n = 0; n < 3; n++) {
 		batten_hull *hull = read_hull(*state, names[n]);
 		for (int m = BATTEN_METHOD_FORWARD_APPROXIMATION; m <= BATTEN_METHOD_INVERSE; m++) {
-			check_equal(*state, hull, m, BATTEN_F64);
-			check_equal(*state, hull, m, BATTEN_F32);
+			check_equal(*state, hull, options_of(m, BATTEN_F64));
+			check_equal(*state, hull, options_of(m, BATTEN_F32));
+		}
+		/* The closed forms of order 3, and fields that are fitted. */
+		for (int precision = BATTEN_F64; precision <= BATTEN_F32; precision++) {
+			batten_pass_options options = options_of(BATTEN_METHOD_FORWARD_FIT,
+			                                         (batten_precision)precision);
+			options.order = 3;
+			check_equal(*state, hull, options);
+			options = options_of(BATTEN_METHOD_INVERSE, (batten_precision)precision);
+			options.vertices = 5;
+			check_equal(*state, hull, options);
 		}
 		batten_hull_destroy(hull);
 	}
