@@ -31,6 +31,8 @@ const bench_entry bench_entries[] = {
 	  bench_variation_lackenby },
 	{ "sweep.end_to_end", "a sweep on all cores, against the slowest of its stages",
 	  bench_sweep_end_to_end },
+	{ "sweep.merge", "shards of a sweep into one database, against copying their bytes",
+	  bench_sweep_merge },
 	{ NULL, NULL, NULL },
 };
 

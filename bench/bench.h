@@ -39,6 +39,7 @@ batten_status bench_search_multilevel(const bench_settings *settings);
 batten_status bench_search_block(const bench_settings *settings);
 batten_status bench_search_textbook(const bench_settings *settings);
 batten_status bench_sweep_end_to_end(const bench_settings *settings);
+batten_status bench_sweep_merge(const bench_settings *settings);
 batten_status bench_search_net(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
 batten_status bench_fairing_pass(const bench_settings *settings);

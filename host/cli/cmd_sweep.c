@@ -98,7 +98,7 @@ static void write_log(struct request *request, const batten_sweep_progress *prog
 static void tell(const batten_sweep_progress *progress, void *user)
 {
 	struct request *request = user;
-	if (request->on_terminal)
+	if (request->on_terminal && progress->stored > progress->stored_before)
 		print_line(request, progress);
 	if (request->log_stream)
 		write_log(request, progress);

@@ -1905,6 +1905,7 @@ typedef struct batten_sweep_options {
 	/* Designs under way at a time, 1..65536, computed and stored in parts: what a kill repeats at most.
 	 * 0 chooses. */
 	size_t block;
+	bool stages_take_turns; /* nothing runs beside anything else: each stage is timed alone */
 	/* Called from the thread of the call before a part is begun and when one is stored; either may be
 	 * NULL. stop returning true ends the sweep when what is under way is stored. */
 	void (*progress)(const batten_sweep_progress *progress, void *user);

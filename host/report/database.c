@@ -1,12 +1,14 @@
 #include "report/database.h"
 
+#include "sweep/schema.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { MESSAGE_SIZE = 700, SCHEMA_VERSION = 1, LOCK_WAIT_MS = 2000 };
+enum { MESSAGE_SIZE = 700, LOCK_WAIT_MS = 2000 };
 
 batten_status report_invalid(const report_database *database, const char *format, ...)
 {
@@ -116,9 +118,10 @@ static batten_status check_version(const report_database *database)
 		status = report_next(database, statement, &found);
 	if (status == BATTEN_OK && !found)
 		status = report_invalid(database, "meta: has no schema_version");
-	else if (status == BATTEN_OK && sqlite3_column_int64(statement, 0) != SCHEMA_VERSION)
+	else if (status == BATTEN_OK && sqlite3_column_int64(statement, 0) != SWEEP_SCHEMA_VERSION)
 		status = report_invalid(database, "meta: found schema_version %lld, expected %d",
-		                        (long long)sqlite3_column_int64(statement, 0), SCHEMA_VERSION);
+		                        (long long)sqlite3_column_int64(statement, 0),
+		                        SWEEP_SCHEMA_VERSION);
 	sqlite3_finalize(statement);
 	return status;
 }

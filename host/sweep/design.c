@@ -69,7 +69,7 @@ batten_status batten_sweep_design(batten_context *context, const char *database_
 	if (status == BATTEN_OK)
 		status = make(&database, &machine, &block, id, out);
 	sweep_block_destroy(&block);
-	sweep_crew_destroy(&machine.crew);
+	sweep_machine_destroy(&machine);
 	sweep_plan_destroy(plan);
 	database_close(&database);
 	return status;

@@ -22,3 +22,22 @@ int sweep_machine_device_f64(const sweep_machine *machine)
 	                                                    &device);
 	return status == BATTEN_OK && !device.has_f64 ? BATTEN_DEVICE_REFERENCE : machine->device;
 }
+
+double *sweep_machine_room(sweep_machine *machine, const sweep_block *block, size_t count)
+{
+	const size_t array = block->capacity * block->nodes_each * sizeof(double);
+	if (machine->room_size < count * array) {
+		batten_release(machine->context, machine->room);
+		machine->room = batten_allocate(machine->context, count, array);
+		machine->room_size = machine->room ? count * array : 0;
+	}
+	return machine->room;
+}
+
+void sweep_machine_destroy(sweep_machine *machine)
+{
+	if (machine->context)
+		batten_release(machine->context, machine->room);
+	sweep_crew_destroy(&machine->crew);
+	*machine = (sweep_machine){ 0 };
+}

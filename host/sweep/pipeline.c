@@ -145,18 +145,19 @@ static batten_status create_workers(sweep_pipeline *pipeline, int device)
 }
 
 batten_status sweep_pipeline_create(const sweep_plan *plan, int device, size_t designs,
-                                    sweep_pipeline *pipeline)
+                                    bool in_turns, sweep_pipeline *pipeline)
 {
 	*pipeline = (sweep_pipeline){ .plan = plan };
 	if (pthread_mutex_init(&pipeline->lock, NULL) != 0 ||
 	    pthread_mutex_init(&pipeline->device_lock, NULL) != 0 ||
 	    pthread_cond_init(&pipeline->changed, NULL) != 0)
 		return batten_fail_memory(plan->context);
-	pipeline->part_count = designs < PIPELINE_PARTS_MOST ? designs : PIPELINE_PARTS_MOST;
+	const size_t parts = designs < PIPELINE_PARTS_MOST ? designs : PIPELINE_PARTS_MOST;
+	const size_t part = designs / parts;
+	pipeline->part_count = in_turns ? 1 : parts;
 	pipeline->worker_count = pipeline->part_count > 1 && plan->context->options.threads > 1
 	                             ? PIPELINE_WORKERS
 	                             : 1;
-	const size_t part = designs / pipeline->part_count;
 	batten_status status = BATTEN_OK;
 	for (size_t p = 0; p < pipeline->part_count && status == BATTEN_OK; p++)
 		status = sweep_block_create(plan, part, &pipeline->parts[p].block);
@@ -182,7 +183,7 @@ void sweep_pipeline_destroy(sweep_pipeline *pipeline)
 	for (size_t p = 0; p < pipeline->part_count; p++)
 		sweep_block_destroy(&pipeline->parts[p].block);
 	for (size_t w = 0; w < pipeline->worker_count; w++)
-		sweep_crew_destroy(&pipeline->workers[w].machine.crew);
+		sweep_machine_destroy(&pipeline->workers[w].machine);
 	(void)pthread_cond_destroy(&pipeline->changed);
 	(void)pthread_mutex_destroy(&pipeline->lock);
 	(void)pthread_mutex_destroy(&pipeline->device_lock);

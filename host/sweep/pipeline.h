@@ -44,10 +44,11 @@ typedef struct sweep_pipeline {
 	char device[sizeof((batten_run *)0)->device];
 } sweep_pipeline;
 
-/* At most this many designs are under way at a time. The pipeline stays where it is made. Errors:
+/* At most this many designs are under way at a time, in parts of one size; in_turns: one part
+ * alone. The pipeline stays where it is made. Errors:
  * MEMORY. */
 batten_status sweep_pipeline_create(const sweep_plan *plan, int device, size_t designs,
-                                    sweep_pipeline *pipeline);
+                                    bool in_turns, sweep_pipeline *pipeline);
 void sweep_pipeline_destroy(sweep_pipeline *pipeline);
 
 /* Designs of a part. */

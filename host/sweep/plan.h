@@ -12,6 +12,7 @@ enum {
 	PLAN_BINDINGS_MOST = 64,
 	PLAN_LIST_MOST = 16, /* hulls of an average, points of a stretch */
 	PLAN_DRAFTS_MOST = 100,
+	PLAN_LOCKS_MOST = 64,
 	PLAN_CONSTRAINTS_MOST = 64,
 	PLAN_OBJECTIVES_MOST = 8,
 	PLAN_HASH_SIZE = 33,
@@ -55,16 +56,22 @@ typedef struct plan_step {
 	batten_hull *others[PLAN_LIST_MOST];
 } plan_step;
 
+/* Numbers of batten_fair_options that a parameter may give; whole ones are rounded down. */
 typedef struct plan_fairing_numbers {
-	double w2_over_w1;
+	double w2_over_w1;     /* NaN: by the noise, or none */
 	double max_distance_m; /* < 0: max_distance_part */
 	double max_distance_part;
+	double first_step, last_step, iteration_limit, longitudinal, transverse; /* of the search */
+	double order, order_sections, iterations, max_cn_pct, least_gain_pct; /* of the other methods */
 } plan_fairing_numbers;
 
 typedef struct plan_fairing {
 	plan_fairing_numbers fixed;
 	plan_bindings swept;
-	batten_search_options search;
+	bool weight_by_noise; /* by the discrepancy principle */
+	size_t lock_count;
+	batten_lock locks[PLAN_LOCKS_MOST];
+	batten_fair_options options; /* what no parameter gives */
 } plan_fairing;
 
 /* A design is rejected where its number is NaN or not within the band. */
@@ -111,6 +118,10 @@ batten_status sweep_plan_read(batten_context *context, const char *path, sweep_p
 batten_status sweep_plan_parse(batten_context *context, const char *file, const char *text,
                                size_t length, const plan_source *source, sweep_plan **out);
 void sweep_plan_destroy(sweep_plan *plan);
+
+/* How a design is faired; borrows from the plan. */
+batten_fair_options plan_fairing_options(const plan_fairing *fairing,
+                                         const plan_fairing_numbers *numbers);
 
 /* Structure with the parameters' values put into its open numbers. */
 void plan_bind(const plan_bindings *bindings, const double *parameters, void *structure);

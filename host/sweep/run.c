@@ -227,7 +227,7 @@ static batten_status run_opened(struct sweep *sweep)
 	batten_status status = count_stored(sweep);
 	if (status == BATTEN_OK)
 		status = sweep_pipeline_create(sweep->plan, sweep->options.device, choose_block(sweep),
-		                               &sweep->pipeline);
+		                               sweep->options.stages_take_turns, &sweep->pipeline);
 	if (status == BATTEN_OK)
 		status = run_parts(sweep);
 	sweep_pipeline_destroy(&sweep->pipeline);

@@ -13,7 +13,6 @@ enum { BOX_PIECE = 16, GROUP_LEAST = 4 };
 /* The searches of a block, designs of one table one after the other. */
 struct searches {
 	sweep_block *block;
-	batten_search_options options;
 	size_t *order;
 	batten_search_problem *problems; /* in that order, as what follows */
 	batten_search_result *results;
@@ -37,15 +36,25 @@ static bool same_table(const batten_hull *a, const batten_hull *b)
 	        memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0);
 }
 
-/* Moves the designs of order[first..count) whose table is that of the first to the front; returns the
+/* Whether one launch takes both: the same table and settings of the search. */
+static bool go_together(const sweep_block *block, size_t i, size_t j)
+{
+	const plan_fairing_numbers *a = &block->designs[i].fairing;
+	const plan_fairing_numbers *b = &block->designs[j].fairing;
+	return a->first_step == b->first_step && a->last_step == b->last_step &&
+	       a->iteration_limit == b->iteration_limit && a->longitudinal == b->longitudinal &&
+	       a->transverse == b->transverse && same_table(form_of(block, i), form_of(block, j));
+}
+
+/* Moves the designs of order[first..count) that go with the first to the front; returns the
  * end of them. */
 static size_t gather(const struct searches *searches, size_t first, size_t count)
 {
-	const batten_hull *model = form_of(searches->block, searches->order[first]);
+	const size_t model = searches->order[first];
 	size_t end = first + 1;
 	for (size_t i = first + 1; i < count; i++) {
 		const size_t design = searches->order[i];
-		if (!same_table(model, form_of(searches->block, design)))
+		if (!go_together(searches->block, model, design))
 			continue;
 		searches->order[i] = searches->order[end];
 		searches->order[end++] = design;
@@ -63,9 +72,6 @@ static batten_status prepare(batten_context *context, const struct searches *sea
 	const size_t i = searches->order[place];
 	sweep_design *design = &block->designs[i];
 	const batten_hull hull = sweep_block_varied(block, context, i);
-	design->fairing = fairing->fixed;
-	plan_bind(&fairing->swept, block->parameters + i * block->plan->sampling.parameter_count,
-	          &design->fairing);
 	const double half_beam = batten_hull_half_beam_m(&hull);
 	const double distance = design->fairing.max_distance_m >= 0.0
 	                            ? design->fairing.max_distance_m
@@ -74,10 +80,15 @@ static batten_status prepare(batten_context *context, const struct searches *sea
 	fairing_box box = { .lower_m = searches->lower_m + at,
 		                .upper_m = searches->upper_m + at,
 		                .closeness_weight = searches->closeness_weight + at };
-	batten_fair_options options;
-	batten_fair_options_default(&options);
-	const batten_status status = fairing_box_fill(context, &hull, &options, NULL, distance, &box);
-	searches->problems[place] = fairing_problem(&hull, &box, 1.0, design->fairing.w2_over_w1);
+	const batten_fair_options options = plan_fairing_options(fairing, &design->fairing);
+	uint8_t *locked = NULL;
+	batten_status status = BATTEN_OK;
+	if (options.lock_count > 0)
+		status = fairing_locks_create(context, &hull, &options, &locked);
+	if (status == BATTEN_OK)
+		status = fairing_box_fill(context, &hull, &options, locked, distance, &box);
+	batten_release(context, locked);
+	searches->problems[place] = fairing_problem(&hull, &box, options.w1, options.w2);
 	if (status == BATTEN_OK || status == BATTEN_MEMORY)
 		return status;
 	/* Bounds that exclude each other: the search refuses what is no hull. */
@@ -100,7 +111,10 @@ static batten_status search(batten_context *context, const struct searches *sear
 {
 	const batten_hull *form = form_of(searches->block, searches->order[first]);
 	const batten_grid grid = { form->station_count, form->waterline_count, form->x_m, form->z_m };
-	batten_search_options options = searches->options;
+	const sweep_block *block = searches->block;
+	const sweep_design *model = &block->designs[searches->order[first]];
+	batten_search_options options =
+		plan_fairing_options(&block->plan->fairing, &model->fairing).search;
 	options.device = device;
 	const batten_status status = batten_search_batch(
 		context, &grid, count, searches->problems + first, &options,
@@ -149,9 +163,8 @@ static batten_status run_groups(sweep_machine *machine, const struct searches *s
 	const size_t gathered = count - searches->alone_count;
 	batten_status status = BATTEN_OK;
 	for (size_t first = 0, end = 0; first < gathered && status == BATTEN_OK; first = end) {
-		const batten_hull *form = form_of(searches->block, searches->order[first]);
 		for (end = first + 1; end < gathered; end++)
-			if (!same_table(form, form_of(searches->block, searches->order[end])))
+			if (!go_together(searches->block, searches->order[first], searches->order[end]))
 				break;
 		sweep_machine_lock(machine);
 		status = search(machine->context, searches, machine->device, first, end - first,
@@ -159,6 +172,23 @@ static batten_status run_groups(sweep_machine *machine, const struct searches *s
 		sweep_machine_unlock(machine);
 	}
 	return status;
+}
+
+/* The numbers of a design's fairing, a step that ends before it begins among them. */
+static void bind(sweep_block *block, size_t i)
+{
+	const sweep_plan *plan = block->plan;
+	sweep_design *design = &block->designs[i];
+	plan_fairing_numbers *numbers = &design->fairing;
+	*numbers = plan->fairing.fixed;
+	plan_bind(&plan->fairing.swept, block->parameters + i * plan->sampling.parameter_count,
+	          numbers);
+	if (numbers->last_step < numbers->first_step)
+		return;
+	char reason[96];
+	(void)snprintf(reason, sizeof reason, "last_step is %.6g, expected less than first_step, %.6g",
+	               numbers->last_step, numbers->first_step);
+	sweep_design_fail(design, SWEEP_FAIR_FAILED, reason);
 }
 
 static size_t list_living(const sweep_block *block, size_t *order)
@@ -171,6 +201,16 @@ static size_t list_living(const sweep_block *block, size_t *order)
 }
 
 /* ---- what came of it ---- */
+
+static void judge(sweep_design *design)
+{
+	if (design->search.end != BATTEN_SEARCH_LIMIT)
+		return;
+	char reason[96];
+	(void)snprintf(reason, sizeof reason, "the search met its limit of %u iterations",
+	               design->search.iterations);
+	sweep_design_fail(design, SWEEP_NOT_CONVERGED, reason);
+}
 
 static batten_status finish(batten_context *context, const struct searches *searches, size_t place)
 {
@@ -191,12 +231,7 @@ static batten_status finish(batten_context *context, const struct searches *sear
 		hull.y_m[n] = hull.nodes[n] == BATTEN_NODE_OUTSIDE ? 0.0 : y[n];
 		unknown = unknown || hull.nodes[n] == BATTEN_NODE_UNKNOWN;
 	}
-	if (design->search.end == BATTEN_SEARCH_LIMIT) {
-		char reason[96];
-		(void)snprintf(reason, sizeof reason, "the search met its limit of %u iterations",
-		               design->search.iterations);
-		sweep_design_fail(design, SWEEP_NOT_CONVERGED, reason);
-	}
+	judge(design);
 	size_t filled = 0;
 	return unknown ? hull_fill_unknown(&hull, &filled) : BATTEN_OK;
 }
@@ -221,21 +256,84 @@ static batten_status run_searches(sweep_machine *machine, struct searches *searc
 	return status;
 }
 
-batten_status sweep_stage_fair(sweep_machine *machine, sweep_block *block)
+/* ---- one by one ---- */
+
+/* What batten_hull_fair() does with a hull. */
+static void take(sweep_block *block, size_t i, const batten_fairing *fairing)
+{
+	sweep_design *design = &block->designs[i];
+	const batten_fairing_facts facts = batten_fairing_describe(fairing);
+	const size_t rows = batten_fairing_row_count(fairing);
+	memcpy(block->faired_y_m + i * block->nodes_each,
+	       batten_hull_y_m(batten_fairing_faired(fairing)), block->nodes_each * sizeof(double));
+	if (block->plan->fairing.options.method == BATTEN_METHOD_SEARCH) {
+		design->search = *batten_fairing_result(fairing);
+		design->fairing.w2_over_w1 = facts.w2 / facts.w1;
+		judge(design);
+		return;
+	}
+	design->search = (batten_search_result){ .iterations = rows > 0 ? (unsigned)rows - 1 : 0,
+		                                     .objective_start = NAN,
+		                                     .objective_end = NAN };
+}
+
+static batten_status fair_one(batten_context *context, sweep_block *block, size_t i)
+{
+	sweep_design *design = &block->designs[i];
+	const batten_hull hull = sweep_block_varied(block, context, i);
+	batten_fair_options options = plan_fairing_options(&block->plan->fairing, &design->fairing);
+	batten_fairing *fairing = NULL;
+	/* Each thread has a hull: none of them needs a device, and every one gives these bits. */
+	options.search.device = BATTEN_DEVICE_REFERENCE;
+	options.pass.device = BATTEN_DEVICE_REFERENCE;
+	const batten_status status = batten_hull_fair(context, &hull, &options, &fairing);
+	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE)
+		take(block, i, fairing);
+	batten_fairing_destroy(fairing);
+	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE || status == BATTEN_MEMORY ||
+	    status == BATTEN_INTERNAL)
+		return status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
+	sweep_design_fail(design, SWEEP_FAIR_FAILED, batten_context_error(context));
+	return BATTEN_OK;
+}
+
+static batten_status fair_piece(batten_context *context, void *user, size_t first, size_t count)
+{
+	sweep_block *block = user;
+	batten_status status = BATTEN_OK;
+	for (size_t i = first; i < first + count && status == BATTEN_OK; i++)
+		if (sweep_design_lives(&block->designs[i]))
+			status = fair_one(context, block, i);
+	return status;
+}
+
+/* Searches over offsets with known weights go to the device together; all else is fairing's own. */
+static bool fits_batch(const plan_fairing *fairing)
+{
+	return fairing->options.method == BATTEN_METHOD_SEARCH && !fairing->options.smooth &&
+	       fairing->options.variables == BATTEN_VARIABLES_OFFSETS && !fairing->weight_by_noise;
+}
+
+/* Arrays of numbers a node that the searches of a block take. */
+enum { ROOM_ARRAYS = 4 };
+
+static batten_status fair_batch(sweep_machine *machine, sweep_block *block)
 {
 	batten_context *context = machine->context;
-	const size_t y_size = block->nodes_each * sizeof(double);
-	struct searches searches = { .block = block, .options = block->plan->fairing.search };
+	const size_t array = block->capacity * block->nodes_each;
+	double *room = sweep_machine_room(machine, block, ROOM_ARRAYS);
+	if (!room)
+		return BATTEN_MEMORY;
+	struct searches searches = { .block = block,
+		                         .y_m = room,
+		                         .lower_m = room + array,
+		                         .upper_m = room + 2 * array,
+		                         .closeness_weight = room + 3 * array };
 	batten_status status = BATTEN_MEMORY;
 	searches.order = batten_allocate(context, block->count, sizeof *searches.order);
 	searches.problems = batten_allocate(context, block->count, sizeof *searches.problems);
 	searches.results = batten_allocate(context, block->count, sizeof *searches.results);
-	searches.y_m = batten_allocate(context, block->count, y_size);
-	searches.lower_m = batten_allocate(context, block->count, y_size);
-	searches.upper_m = batten_allocate(context, block->count, y_size);
-	searches.closeness_weight = batten_allocate(context, block->count, y_size);
-	if (searches.order && searches.problems && searches.results && searches.y_m &&
-	    searches.lower_m && searches.upper_m && searches.closeness_weight) {
+	if (searches.order && searches.problems && searches.results) {
 		const size_t count = list_living(block, searches.order);
 		gather_groups(&searches, count, machine->device >= 0 ? 1 : GROUP_LEAST);
 		status = run_searches(machine, &searches, count);
@@ -243,9 +341,15 @@ batten_status sweep_stage_fair(sweep_machine *machine, sweep_block *block)
 	batten_release(context, searches.order);
 	batten_release(context, searches.problems);
 	batten_release(context, searches.results);
-	batten_release(context, searches.y_m);
-	batten_release(context, searches.lower_m);
-	batten_release(context, searches.upper_m);
-	batten_release(context, searches.closeness_weight);
 	return status;
+}
+
+batten_status sweep_stage_fair(sweep_machine *machine, sweep_block *block)
+{
+	for (size_t i = 0; i < block->count; i++)
+		if (sweep_design_lives(&block->designs[i]))
+			bind(block, i);
+	return fits_batch(&block->plan->fairing)
+	           ? fair_batch(machine, block)
+	           : sweep_crew_run(&machine->crew, block->count, 1, fair_piece, block);
 }

@@ -164,12 +164,26 @@ static size_t list_batch(const sweep_block *block, size_t *place)
 	return count;
 }
 
-/* The half-breadths of the batch, side by side. */
-static void gather(const struct measuring *measuring, double *y_m, uint8_t *nodes)
+/* Half-breadths and nodes of a batch, side by side. */
+struct offsets {
+	const double *y_m;
+	const uint8_t *nodes;
+};
+
+/* Those of the block where all of it goes in the batch, else copies in the machine's room. */
+static batten_status gather(sweep_machine *machine, const struct measuring *measuring,
+                            struct offsets *out)
 {
 	const sweep_block *block = measuring->block;
 	const size_t each = block->nodes_each;
 	const double *from = block->faired_y_m ? block->faired_y_m : block->varied_y_m;
+	*out = (struct offsets){ from, block->nodes };
+	if (measuring->batch_count == block->count)
+		return BATTEN_OK;
+	double *y_m = sweep_machine_room(machine, block, 2);
+	if (!y_m)
+		return BATTEN_MEMORY;
+	uint8_t *nodes = (uint8_t *)(y_m + block->capacity * each);
 	for (size_t i = 0; i < block->count; i++) {
 		const size_t place = measuring->place[i];
 		if (place == SIZE_MAX)
@@ -177,32 +191,28 @@ static void gather(const struct measuring *measuring, double *y_m, uint8_t *node
 		memcpy(y_m + place * each, from + i * each, each * sizeof *y_m);
 		memcpy(nodes + place * each, block->nodes + i * each, each);
 	}
+	*out = (struct offsets){ y_m, nodes };
+	return BATTEN_OK;
 }
 
 static batten_status run_batch(sweep_machine *machine, const struct measuring *measuring)
 {
-	const sweep_block *block = measuring->block;
-	const sweep_plan *plan = block->plan;
-	const size_t each = block->nodes_each;
+	const sweep_plan *plan = measuring->block->plan;
 	double drafts[PLAN_DRAFTS_MOST + 1];
 	memcpy(drafts, plan->drafts_m, plan->draft_count * sizeof *drafts);
 	drafts[plan->draft_count] = plan->parent->draft_m;
-	double *y_m = batten_allocate(machine->context, measuring->batch_count, each * sizeof *y_m);
-	uint8_t *nodes = batten_allocate(machine->context, measuring->batch_count, each);
 	batten_batch_options batch;
 	batten_batch_options_default(&batch);
-	batten_status status = y_m && nodes ? BATTEN_OK : BATTEN_MEMORY;
-	if (status == BATTEN_OK) {
-		gather(measuring, y_m, nodes);
-		sweep_machine_lock(machine);
-		batch.device = sweep_machine_device_f64(machine);
-		status = batten_hull_hydrostatics_batch(
-			machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
-			y_m, nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
-		sweep_machine_unlock(machine);
-	}
-	batten_release(machine->context, y_m);
-	batten_release(machine->context, nodes);
+	struct offsets offsets;
+	batten_status status = gather(machine, measuring, &offsets);
+	if (status != BATTEN_OK)
+		return status;
+	sweep_machine_lock(machine);
+	batch.device = sweep_machine_device_f64(machine);
+	status = batten_hull_hydrostatics_batch(
+		machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
+		offsets.y_m, offsets.nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
+	sweep_machine_unlock(machine);
 	return status;
 }
 

@@ -12,7 +12,14 @@ typedef struct sweep_machine {
 	int device;                   /* as in batten_search_options */
 	pthread_mutex_t *device_lock; /* held while a batch runs on the devices; may be NULL */
 	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
+	void *room;     /* what stages work in; kept from part to part */
+	size_t room_size;
 } sweep_machine;
+
+/* Room of count arrays of half-breadths, with what was in it last. NULL: MEMORY. */
+double *sweep_machine_room(sweep_machine *machine, const sweep_block *block, size_t count);
+
+void sweep_machine_destroy(sweep_machine *machine);
 
 /* Before and after a batch on the devices. */
 void sweep_machine_lock(const sweep_machine *machine);

@@ -5,9 +5,7 @@
 #include "sweep/best.h"
 #include "sweep/block.h"
 #include "sweep/database.h"
-
-#define STORE_APPLICATION 0x6274656e /* "bten" */
-enum { STORE_SCHEMA_VERSION = 1 };
+#include "sweep/schema.h"
 
 /* A part of a sweep: number `index` of count parts, from 1; its designs are first to end - 1. */
 typedef struct sweep_shard {

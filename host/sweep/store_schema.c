@@ -163,7 +163,7 @@ static batten_status put_numbers(const sweep_store *store)
 		const char *key;
 		uint64_t value;
 	} numbers[] = {
-		{ "schema_version", STORE_SCHEMA_VERSION },
+		{ "schema_version", SWEEP_SCHEMA_VERSION },
 		{ "seed", store->plan->sampling.seed },
 		{ "design_count", store->plan->sampling.count },
 		{ "shard", store->shard.index },
@@ -245,15 +245,15 @@ batten_status store_check_kind(const sweep_database *database)
 		status = database_whole(database, "PRAGMA user_version", &version);
 	if (status != BATTEN_OK)
 		return status;
-	if (application != STORE_APPLICATION)
+	if (application != SWEEP_SCHEMA_APPLICATION)
 		return batten_fail(database->context, BATTEN_INPUT, "%s: is no database of a sweep",
 		                   database->path);
-	if (version != STORE_SCHEMA_VERSION)
+	if (version != SWEEP_SCHEMA_VERSION)
 		return batten_fail(
 			database->context, BATTEN_INPUT,
 			"%s: found a database of schema version %lld, expected version %d: batten "
 			"%s reads no other",
-			database->path, (long long)version, STORE_SCHEMA_VERSION, batten_version());
+			database->path, (long long)version, SWEEP_SCHEMA_VERSION, batten_version());
 	return BATTEN_OK;
 }
 

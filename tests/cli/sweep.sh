@@ -100,24 +100,68 @@ same_rows a.db c.db
 
 # A file that may grow no further is a disk that is full: earlier rows stay, and it goes on.
 plan big.json 60 '"keep": { "offsets": "all" }'
-(ulimit -f 150 && "$BATTEN" sweep big.json --out big.db --block 10 --journal rollback >"$out" 2>"$talk")
-equals 'exit code of a full disk' $? 6
-says 'big.db: .*\(disk\|I/O\)'
-stored=$(ask big.db 'SELECT count(*) FROM designs')
-[ "$stored" -gt 0 ] && [ "$stored" -lt 60 ] || fail "a full disk left $stored rows, some were expected"
-expect 0 sweep big.json --out big.db --resume
-equals 'all designs' "$(ask big.db 'SELECT count(*) FROM geometry')" 60
+for journal in rollback wal; do
+	rm -f big.db
+	(ulimit -f 150 && "$BATTEN" sweep big.json --out big.db --block 10 --journal $journal >"$out" 2>"$talk")
+	equals "exit code of a full disk, $journal" $? 6
+	says 'big.db: .*\(disk\|I/O\)'
+	stored=$(ask big.db 'SELECT count(*) FROM designs')
+	[ "$stored" -gt 0 ] && [ "$stored" -lt 60 ] || fail "a full disk left $stored rows, some were expected"
+	expect 0 sweep big.json --out big.db --resume
+	equals 'all designs' "$(ask big.db 'SELECT count(*) FROM geometry')" 60
+done
+
+# A folder and a database that are not to be written, for one who may not write everything.
+mkdir fixed
+cp "$hulls/bsra_trawler.csv" .
+sed "s,\"$hulls/,\"," none.json >fixed.json
+expect 0 sweep fixed.json --out fixed/there.db
+cp fixed/there.db there.db
+cp "$BATTEN" fixed/batten
+chmod 444 fixed/there.db
+chmod 555 fixed fixed/batten
+unprivileged()
+{
+	_program=./fixed/batten
+	if [ "$(id -u)" = 0 ]; then
+		chmod 755 .
+		setpriv --reuid=65534 --regid=65534 --clear-groups "$_program" "$@"
+	else
+		"$_program" "$@"
+	fi >"$out" 2>"$talk"
+}
+unprivileged sweep fixed.json --out fixed/new.db --device reference
+equals 'exit code in a folder that is read-only' $? 6
+says 'fixed/new.db: cannot be made: Permission denied'
+one_line
+[ -e fixed/new.db ] && fail 'a read-only folder got a database'
+unprivileged sweep fixed.json --out fixed/there.db --resume --device reference
+equals 'exit code of a database that is read-only' $? 6
+says 'fixed/there.db: cannot be opened or written: .*read-only'
+one_line
+same_rows there.db fixed/there.db
+chmod 755 fixed
+
+# What a terminal sees.
+script -qec "'$BATTEN' sweep a.json --out seen.db --block 9" seen >/dev/null </dev/null
+grep -q '[1-9][0-9]* of 40 designs, [0-9.]*/s, [0-9]*:[0-5][0-9]:[0-5][0-9] left, 0 failed, [0-9]* rejected' seen ||
+	fail "no line of progress on a terminal: $(tr '\r' '\n' <seen | tail -n 3)"
+grep -q '40 of 40 designs' seen || fail 'the progress on a terminal does not end'
+same_rows a.db seen.db
 
 # ---- stopping ----
 for name in TERM USR1; do
 	rm -f stop.db stop.log
 	plan stop.json 4000 "$faired"
-	"$BATTEN" sweep stop.json --out stop.db --block 8 --log stop.log >"$out" 2>"$talk" &
+	"$BATTEN" sweep stop.json --out stop.db --block 8 --log stop.log >stop.out 2>stop.talk &
 	pid=$!
 	while [ ! -s stop.log ] && kill -0 $pid 2>/dev/null; do sleep 0.02; done
+	expect 6 sweep stop.json --out stop.db --resume
+	says 'stop.db: is in use by another program'
 	kill -s "$name" $pid
 	wait $pid
 	equals "exit code of SIG$name" $? 75
+	cp stop.talk "$talk"
 	says '^to go on: batten sweep .*--out stop.db .*stop.json.* --resume$'
 	equals 'what was under way is stored' "$(ask stop.db 'SELECT count(*) FROM designs')" "$(begun stop.log)"
 	[ "$(begun stop.log)" -lt 4000 ] || fail "SIG$name ended nothing"

@@ -23,8 +23,8 @@ ray           core hull geometry
 hydrostatics  core hull geometry batch shared
 variation     core hull geometry batch hydrostatics shared
 fairing       core hull geometry batch hydrostatics shared
-report        core hull geometry picture
 sweep         core hull geometry batch io exchange picture ray hydrostatics variation fairing shared
+report        core hull geometry picture sweep
 bench         shared kernels
 cli           bench
 data
