@@ -1,6 +1,7 @@
 /* The program: picks the subcommand. */
 #include "cli.h"
 
+#include <malloc.h>
 #include <signal.h>
 #include <string.h>
 
@@ -52,10 +53,21 @@ static int finish(batten_status status)
 	return batten_status_exit_code(status);
 }
 
+/* What a batch gives back the next one takes again: without this the system takes the pages and zeroes
+ * them anew each time, a tenth of a sweep's CPU time. */
+static void keep_memory(void)
+{
+#ifdef __GLIBC__
+	(void)mallopt(M_MMAP_THRESHOLD, 32 << 20);
+	(void)mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 int main(int argc, char **argv)
 {
 	/* A file that grows past its limit is a write that fails, and is reported as one. */
 	(void)signal(SIGXFSZ, SIG_IGN);
+	keep_memory();
 	if (argc < 2) {
 		print_help(stderr);
 		return batten_status_exit_code(BATTEN_USAGE);

@@ -17,26 +17,40 @@ void difference_weights(const double *at, double w[4])
 	w[3] = 2.0 / (above * (below + above));
 }
 
+/* Newton's form: 6 [0 1 2 3] + 6 [0 1 2 3 4] times the sum of the distances from the first four. */
+static double third_of(const double *at, const double value[5])
+{
+	double table[5];
+	double cubic = 0.0;
+	for (ptrdiff_t i = 0; i < 5; i++)
+		table[i] = value[i];
+	for (ptrdiff_t degree = 1; degree < 5; degree++) {
+		for (ptrdiff_t first = 0; first + degree < 5; first++)
+			table[first] = (table[first + 1] - table[first]) /
+			               (at[first + degree - 2] - at[first - 2]);
+		cubic = degree == 3 ? table[0] : cubic;
+	}
+	const double away = (at[0] - at[-2]) + (at[0] - at[-1]) + (at[0] - at[1]);
+	return 6.0 * (cubic + away * table[0]);
+}
+
 difference_quartic difference_quartic_of(const double *at)
 {
-	difference_quartic quartic = { .away = (at[0] - at[-2]) + (at[0] - at[-1]) + (at[0] - at[1]) };
-	for (ptrdiff_t degree = 1; degree < 5; degree++)
-		for (ptrdiff_t first = 0; first + degree < 5; first++)
-			quartic.inverse[degree - 1][first] = 1.0 / (at[first + degree - 2] - at[first - 2]);
+	difference_quartic quartic;
+	for (ptrdiff_t k = 0; k < 4; k++) {
+		/* One where the difference k is: a step. */
+		double step[5];
+		for (ptrdiff_t i = 0; i < 5; i++)
+			step[i] = i > k ? 1.0 : 0.0;
+		quartic.weight[k] = third_of(at, step);
+	}
 	return quartic;
 }
 
-/* Newton's form: 6 [0 1 2 3] + 6 [0 1 2 3 4] times the sum of the distances from the first four. */
 double difference_third(const difference_quartic *quartic, const double *y, ptrdiff_t step)
 {
-	double table[5];
-	for (ptrdiff_t i = 0; i < 5; i++)
-		table[i] = y[(i - 2) * step];
-	double third = 0.0;
-	for (ptrdiff_t degree = 1; degree < 5; degree++) {
-		for (ptrdiff_t first = 0; first + degree < 5; first++)
-			table[first] = (table[first + 1] - table[first]) * quartic->inverse[degree - 1][first];
-		third = degree == 3 ? table[0] : third;
-	}
-	return 6.0 * (third + quartic->away * table[0]);
+	double sum = 0.0;
+	for (ptrdiff_t k = 0; k < 4; k++)
+		sum += quartic->weight[k] * (y[(k - 1) * step] - y[(k - 2) * step]);
+	return sum;
 }

@@ -11,11 +11,10 @@ double difference_cell(const double *at, size_t count, size_t i);
  * d = y[0] - y[-1] and e = y[1] - y[0], w[0] d + w[1] e and w[3] e - w[2] d. */
 void difference_weights(const double *at, double w[4]);
 
-/* What the third derivative at at[0] of the polynomial of degree 4 through five neighbours takes from
- * their coordinates. */
+/* Weights of the third derivative at at[0] of the polynomial of degree 4 through five neighbours: of the
+ * four differences from one to the next, which are exact where neighbours are close. */
 typedef struct difference_quartic {
-	double inverse[4][4]; /* [degree - 1][first point]: of the distance between the ends */
-	double away;          /* sum of the distances from the first four */
+	double weight[4];
 } difference_quartic;
 difference_quartic difference_quartic_of(const double *at);
 
