@@ -3,6 +3,7 @@
 #include "sweep/stages.h"
 #include "sweep/store.h"
 #include "sweep/stored_plan.h"
+#include "variation/variation.h"
 
 #include <string.h>
 
@@ -44,7 +45,16 @@ static batten_status make(const sweep_database *database, sweep_machine *machine
 		status = batten_fail(database->context, BATTEN_INPUT, "%s: design %llu failed: %s",
 		                     database->path, (unsigned long long)id, design->reason);
 	const batten_hull hull = sweep_block_final(block, database->context, 0);
-	return status == BATTEN_OK ? batten_hull_clone(database->context, &hull, out) : status;
+	if (status == BATTEN_OK)
+		status = batten_hull_clone(database->context, &hull, out);
+	/* A form of its own says so already. */
+	if (status == BATTEN_OK && !design->form && block->plan->step_count > 0)
+		status = variation_mark_source(*out);
+	if (status != BATTEN_OK) {
+		batten_hull_destroy(*out);
+		*out = NULL;
+	}
+	return status;
 }
 
 batten_status batten_sweep_design(batten_context *context, const char *database_path, uint64_t id,

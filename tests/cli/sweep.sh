@@ -30,6 +30,9 @@ equals 'blobs' "$(ask a.db 'SELECT count(*) FROM geometry WHERE length(y_m) <> 8
 	length(varied_y_m) <> length(y_m) OR x_m IS NOT NULL')" 0
 equals 'log lines' "$(grep -c '^{.*"stored":40' a.log)" 1
 
+expect 0 export a.db --id 7 --out seven.csv
+grep -q '^# source: .*; varied by batten ' seven.csv || fail 'an exported variant does not say that it is one'
+
 # ---- the same rows ----
 expect 0 sweep a.json --out b.db --block 7 --threads 1 --journal rollback
 same_rows a.db b.db
