@@ -159,7 +159,7 @@ static batten_status contest_series(const bench_settings *settings)
 {
 	enum { COUNT = 13 };
 	const double x[COUNT] = { 0, 0.8, 1.6, 3.2, 4.8, 6.4, 8, 9.6, 11.2, 12.8, 14.4, 15.2, 16 };
-	series s = { NULL };
+	series s = { 0 };
 	bench_row row = { .precision = BATTEN_F64, .unit = "ms per series" };
 	(void)snprintf(row.name, sizeof row.name, "forward.pass");
 	(void)snprintf(row.case_name, sizeof row.case_name, "table 5.1, 1 of 13x20");

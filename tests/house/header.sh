@@ -1,5 +1,5 @@
 #!/bin/sh
-# The public header stands alone: C11 -pedantic, C++17, and twice in one file.
+# The public header stands alone, and so does each part of it: C11 -pedantic, C++17, and twice in one file.
 #
 #   header.sh REPOSITORY CC CXX
 set -eu
@@ -18,3 +18,6 @@ sed -i 's/(void)/()/' "$folder/user.cpp"
 set -- "$1/host/include" "$2" "$3"
 "$2" -std=c11 -pedantic -Wall -Wextra -Werror -I"$1" -fsyntax-only "$folder/user.c"
 "$3" -std=c++17 -pedantic -Wall -Wextra -Werror -I"$1" -fsyntax-only "$folder/user.cpp"
+for part in "$1"/batten/*.h; do
+	"$2" -std=c11 -pedantic -Wall -Wextra -Werror -fsyntax-only -x c "$part"
+done

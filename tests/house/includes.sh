@@ -126,6 +126,7 @@ function check(file, room, line, number, name, target, i, part, allowed) {
 		if (line ~ /"/) {
 			sub(/^[^"]*"/, "", name); sub(/".*$/, "", name)
 			target = target_of(file, name)
+			if (target == "include") target = "core"
 			if (target == "public" && (room == "shared" || room == "kernels"))
 				complain(file, number, "a kernel includes batten.h")
 			else if (target == "nowhere")
