@@ -90,22 +90,41 @@ static void make_noisy(noisy_hull *hull, uint32_t seed, double noise)
 	}
 }
 
+static batten_search_problem problem_of(const noisy_hull *hull, double w2)
+{
+	return (batten_search_problem){ .start_m = hull->y,
+		                            .target_m = hull->y,
+		                            .lower_m = hull->lower,
+		                            .upper_m = hull->upper,
+		                            .w1 = 1.0,
+		                            .w2 = w2,
+		                            .half_beam_m = 0.8 };
+}
+
 static batten_search_result run(batten_context *context, noisy_hull *hull, double w2,
                                 const batten_search_options *options)
 {
 	const batten_grid grid = { hull->nx, hull->nz, hull->x, hull->z };
-	const batten_search_problem problem = { .start_m = hull->y,
-		                                    .target_m = hull->y,
-		                                    .lower_m = hull->lower,
-		                                    .upper_m = hull->upper,
-		                                    .w1 = 1.0,
-		                                    .w2 = w2,
-		                                    .half_beam_m = 0.8 };
+	const batten_search_problem problem = problem_of(hull, w2);
 	batten_search_result result;
 	assert_int_equal(
 		batten_search_batch(context, &grid, 1, &problem, options, hull->end, &result, NULL),
 		BATTEN_OK);
 	return result;
+}
+
+/* Objective of the minimum that Newton's method by exact derivatives reaches from the search's end. */
+static double polished(batten_context *context, noisy_hull *hull, double w2,
+                       const batten_search_options *options)
+{
+	const batten_grid grid = { hull->nx, hull->nz, hull->x, hull->z };
+	const batten_search_problem problem = problem_of(hull, w2);
+	batten_certificate certificate;
+	assert_int_equal(batten_search_polish_batch(context, &grid, 1, &problem, options, 1e-14,
+	                                            hull->end, &certificate),
+	                 BATTEN_OK);
+	assert_true(certificate.gap_estimate <= 1e-14);
+	return certificate.objective;
 }
 
 /* The gap to where the oracle's Newton method gets from the search's end. */
@@ -154,8 +173,7 @@ static void test_grids_of_other_kinds(void **state)
 	batten_context_destroy(context);
 }
 
-/* The block search and the multilevel search end at the same minimum, whatever the noise: 12 seeds,
- * 3 levels, 3 weights. */
+/* The block search ends close to the minimum, whatever the noise: 12 seeds, 3 levels, 3 weights. */
 static void test_robust_against_noise(void **state)
 {
 	(void)state;
@@ -165,8 +183,6 @@ static void test_robust_against_noise(void **state)
 	static const double weights[] = { 10.0, 1e3, 1e5 };
 	const batten_search_options options = block_options(BATTEN_F64);
 	const batten_search_options single = block_options(BATTEN_F32);
-	batten_search_options strict = options;
-	strict.last_step = 1e-10;
 	double worst = 0.0, worst_f32 = 0.0;
 	for (uint32_t seed = 0; seed < 12; seed++)
 		for (size_t noise = 0; noise < 3; noise++)
@@ -178,9 +194,9 @@ static void test_robust_against_noise(void **state)
 					hull.z[k] = (double)k / 19.0;
 				make_noisy(&hull, seed, noises[noise]);
 				const double w2 = 0.4096 * weights[w];
-				const double found = run(context, &hull, w2, &options).objective_end;
 				const double found_f32 = run(context, &hull, w2, &single).objective_end;
-				const double best = run(context, &hull, w2, &strict).objective_end;
+				const double found = run(context, &hull, w2, &options).objective_end;
+				const double best = polished(context, &hull, w2, &options);
 				worst = fmax(worst, fabs(found - best) / best);
 				worst_f32 = fmax(worst_f32, fabs(found_f32 - best) / best);
 			}
