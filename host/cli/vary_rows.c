@@ -207,7 +207,7 @@ static batten_status read_header(struct reader *reader, vary_rows *rows)
 		if (!read_column(reader->request, rows, cell, column))
 			return fail(reader, number, cell, "a number this method takes (--help)");
 		for (size_t i = 0; i < rows->column_count; i++)
-			if (strcmp(rows->columns[i].name, cell) == 0)
+			if (rows->columns[i].name && strcmp(rows->columns[i].name, cell) == 0)
 				return fail(reader, number, cell, "each name once");
 		rows->column_count++;
 	}

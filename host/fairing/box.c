@@ -113,21 +113,21 @@ static batten_status check_table(batten_context *context, const batten_hull *hul
 	return BATTEN_OK;
 }
 
-batten_status fairing_box_fill(batten_context *context, const batten_hull *hull,
+batten_status fairing_box_fill(batten_context *context, const batten_hull *smoothed,
                                const batten_fair_options *options, const uint8_t *locked,
-                               double distance, fairing_box *box)
+                               double distance_m, fairing_box *box)
 {
-	const size_t nodes = hull_node_count(hull);
-	const double half_beam = batten_hull_half_beam_m(hull);
+	const size_t nodes = hull_node_count(smoothed);
+	const double half_beam = batten_hull_half_beam_m(smoothed);
 	box->variable_count = 0;
-	batten_status status = check_table(context, hull, options->lower, "lower");
+	batten_status status = check_table(context, smoothed, options->lower, "lower");
 	if (status == BATTEN_OK)
-		status = check_table(context, hull, options->upper, "upper");
+		status = check_table(context, smoothed, options->upper, "upper");
 	for (size_t n = 0; n < nodes && status == BATTEN_OK; n++) {
-		hold(box, hull, n);
-		box->closeness_weight[n] = hull->nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
-		if (is_variable(hull, n) && !(locked && locked[n]))
-			status = bound_node(context, hull, options, half_beam, distance, n, box);
+		hold(box, smoothed, n);
+		box->closeness_weight[n] = smoothed->nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
+		if (is_variable(smoothed, n) && !(locked && locked[n]))
+			status = bound_node(context, smoothed, options, half_beam, distance_m, n, box);
 		box->variable_count += box->lower_m[n] < box->upper_m[n];
 	}
 	return status;

@@ -117,7 +117,7 @@ static batten_status write_geometry(const sweep_store *store, const sweep_block 
 	const batten_hull *parent = store->plan->parent;
 	const batten_hull hull = sweep_block_final(block, store->database.context, i);
 	const size_t nodes = block->nodes_each;
-	(void)sqlite3_bind_int64(statement, 1, (sqlite3_int64)(block->first + i));
+	(void)sqlite3_bind_int64(statement, 1, (sqlite3_int64)block->first + (sqlite3_int64)i);
 	(void)sqlite3_bind_double(statement, 2, hull.lbp_m);
 	(void)sqlite3_bind_double(statement, 3, hull.draft_m);
 	bind_coordinates(statement, 4, hull.x_m, parent->x_m, hull.station_count);

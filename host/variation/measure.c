@@ -56,15 +56,16 @@ static batten_status keep(struct batch *b, size_t which, size_t i)
 {
 	const batten_variants *v = b->task.v;
 	const double *outcome = b->outcomes + i * variants_plan_outcome(&b->plan);
+	/* There are none where neither offsets nor hulls are asked for. */
 	const double *found = b->y ? b->y + i * b->task.nodes : NULL;
-	if (v->y_m || v->nodes)
+	if (found && (v->y_m || v->nodes))
 		take_offsets(b->task.parent, found, v->y_m ? v->y_m + which * b->task.nodes : NULL,
 		             v->nodes ? v->nodes + which * b->task.nodes : NULL);
 	if (v->out)
 		offsets_tables_take(b->task.parent, &b->task.hydrostatics, b->task.draft_count,
 		                    v->drafts_m ? v->drafts_m : &b->task.parent->draft_m, outcome,
 		                    measure_forms_of(&b->task, which));
-	return v->hulls ? make_hull(&b->task, found, &v->hulls[which]) : BATTEN_OK;
+	return found && v->hulls ? make_hull(&b->task, found, &v->hulls[which]) : BATTEN_OK;
 }
 
 /* What batten_hull_vary() would tell of a row. */

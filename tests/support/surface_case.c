@@ -161,6 +161,16 @@ static void compare_energy(const surface_case *c, batten_surface_batch_options o
 	assert_true((found[0].variation_per_m2 > 0.0) == options.variation);
 }
 
+void surface_case_compare_most(const surface_case *c, const batten_surface_batch_options *options)
+{
+	batten_surface_batch_options chosen = *options;
+	chosen.output = BATTEN_SURFACE_EVERYTHING;
+	compare_grid(c, chosen);
+	chosen = *options;
+	chosen.variation = true;
+	compare_energy(c, chosen);
+}
+
 void surface_case_compare(const surface_case *c, const batten_surface_batch_options *options)
 {
 	static const batten_surface_output outputs[] = { BATTEN_SURFACE_POSITION,

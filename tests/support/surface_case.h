@@ -30,4 +30,7 @@ batten_surface_batch_options surface_case_options(int device, batten_precision p
  * differs. */
 void surface_case_compare(const surface_case *c, const batten_surface_batch_options *options);
 
+/* The same of the two kernels that do most: everything of a grid, all energies. */
+void surface_case_compare_most(const surface_case *c, const batten_surface_batch_options *options);
+
 #endif
