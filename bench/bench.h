@@ -95,6 +95,11 @@ double bench_peak(batten_precision precision);
 /* Bytes a second that memory gives one core; 0 where memory is out. Takes 20 milliseconds. */
 double bench_stream(void);
 
+/* Memory for free(), on large pages where the system has them: of small ones some systems take back what
+ * was not touched for a while, and then the journeys to memory that are timed are those of the system.
+ * NULL when there is none. */
+void *bench_allocate_large(size_t size);
+
 /* CPU seconds of the whole process; wall seconds. */
 double bench_cpu_seconds(void);
 double bench_wall_seconds(void);

@@ -56,9 +56,9 @@ static batten_status workload_create(const bench_settings *settings, batten_fair
 {
 	batten_hull *hull = NULL;
 	*w = (workload){ .count = count };
-	w->y = malloc(count * NODES * sizeof *w->y);
-	w->found = malloc(count * NODES * sizeof *w->found);
-	w->known = malloc(count * NODES * sizeof *w->known);
+	w->y = bench_allocate_large(count * NODES * sizeof *w->y);
+	w->found = bench_allocate_large(count * NODES * sizeof *w->found);
+	w->known = bench_allocate_large(count * NODES * sizeof *w->known);
 	double x[STATIONS];
 	for (int i = 0; i < STATIONS; i++)
 		x[i] = 16.0 * i / (STATIONS - 1.0);

@@ -2,13 +2,27 @@
  * and a write an element). */
 #include "bench.h"
 
+#include <stdint.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 
 enum { NUMBERS = 1 << 22, TURNS = 2 };
 
+void *bench_allocate_large(size_t size)
+{
+	const size_t page = (size_t)2 << 20;
+	if (size > SIZE_MAX - page)
+		return NULL;
+	const size_t rounded = (size + page - 1) / page * page;
+	void *memory = aligned_alloc(page, rounded);
+	if (memory)
+		(void)madvise(memory, rounded, MADV_HUGEPAGE);
+	return memory;
+}
+
 double bench_stream(void)
 {
-	double *memory = malloc(3 * sizeof *memory * NUMBERS);
+	double *memory = bench_allocate_large(3 * sizeof *memory * NUMBERS);
 	if (!memory)
 		return 0.0;
 	double *a = memory, *b = memory + NUMBERS, *c = memory + 2 * (size_t)NUMBERS;
