@@ -1,6 +1,7 @@
 #include "bench.h"
 
 #include <dlfcn.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,26 @@ static double seconds_of(clockid_t clock)
 	struct timespec now = { 0 };
 	(void)clock_gettime(clock, &now);
 	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double number_at(bench_numbers numbers, size_t n)
+{
+	return numbers.precision == BATTEN_F32 ? (double)((const float *)numbers.list)[n]
+	                                       : ((const double *)numbers.list)[n];
+}
+
+bool bench_numbers_agree(bench_numbers values, bench_numbers known, size_t parts, size_t size)
+{
+	const double tolerance = values.precision == BATTEN_F64 ? 1e-12 : 1e-4;
+	for (size_t part = 0; part < parts * size; part += size) {
+		double largest = 0.0;
+		for (size_t n = part; n < part + size; n++)
+			largest = fmax(largest, fabs(number_at(known, n)));
+		for (size_t n = part; n < part + size; n++)
+			if (!(fabs(number_at(values, n) - number_at(known, n)) <= tolerance * largest))
+				return false;
+	}
+	return true;
 }
 
 double bench_cpu_seconds(void)

@@ -100,6 +100,16 @@ double bench_stream(void);
  * NULL when there is none. */
 void *bench_allocate_large(size_t size);
 
+/* Numbers of a benchmark, doubles or, in f32, floats. */
+typedef struct bench_numbers {
+	const void *list;
+	batten_precision precision;
+} bench_numbers;
+
+/* Whether every number of `parts` runs of `size` is within 1e-12 (f32: 1e-4) of the known one, relative to
+ * the largest that is known of its run. */
+bool bench_numbers_agree(bench_numbers values, bench_numbers known, size_t parts, size_t size);
+
 /* CPU seconds of the whole process; wall seconds. */
 double bench_cpu_seconds(void);
 double bench_wall_seconds(void);

@@ -4,10 +4,8 @@
 #include "bench.h"
 #include "c_vectors_peer.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
 	GRID_U = 256,
@@ -99,27 +97,11 @@ static double time_rival(contest *c)
 	return bench_cpu_seconds() - begun;
 }
 
-static double number_at(const void *numbers, batten_precision precision, size_t n)
-{
-	return precision == BATTEN_F32 ? (double)((const float *)numbers)[n]
-	                               : ((const double *)numbers)[n];
-}
-
-/* Every K and H within the tolerance of the largest of its kind on its surface: the rival's tables are
- * made another way. */
+/* The rival's tables are made another way: K and H need not be the same bits. */
 static bool agrees(const contest *c, batten_precision precision)
 {
-	const double tolerance = precision == BATTEN_F64 ? 1e-12 : 1e-4;
-	for (size_t part = 0; part < NUMBERS; part += POINTS) {
-		double largest = 0.0;
-		for (size_t n = part; n < part + POINTS; n++)
-			largest = fmax(largest, fabs(number_at(c->known, precision, n)));
-		for (size_t n = part; n < part + POINTS; n++)
-			if (!(fabs(number_at(c->values, precision, n) - number_at(c->known, precision, n)) <=
-			      tolerance * largest))
-				return false;
-	}
-	return true;
+	return bench_numbers_agree((bench_numbers){ c->values, precision },
+	                           (bench_numbers){ c->known, precision }, (size_t)COUNT * 2, POINTS);
 }
 
 static batten_status run_case(const bench_settings *settings, contest *c,

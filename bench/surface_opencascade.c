@@ -4,10 +4,8 @@
 #include "bench.h"
 #include "opencascade_peer.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { GRID_U = 256, GRID_V = 128, POINTS = GRID_U * GRID_V, COUNT = 64, OF_PEER = 4 };
 
@@ -81,27 +79,12 @@ static batten_status time_peer(contest *c, double *seconds)
 	return good ? BATTEN_OK : BATTEN_INTERNAL;
 }
 
-static double value_of(const contest *c, batten_precision precision, size_t n)
-{
-	return precision == BATTEN_F32 ? (double)((const float *)c->values)[n]
-	                               : ((const double *)c->values)[n];
-}
-
-/* Every K and H within the tolerance of the largest of its kind on its surface. */
+/* K and H of the surfaces that the rival takes. */
 static bool agrees(const contest *c, batten_precision precision)
 {
-	const double tolerance = precision == BATTEN_F64 ? 1e-12 : 1e-4;
-	for (size_t part = 0; part < (size_t)OF_PEER * 2; part++) {
-		const double *known = c->known + part * POINTS;
-		double largest = 0.0;
-		for (size_t i = 0; i < POINTS; i++)
-			largest = fmax(largest, fabs(known[i]));
-		for (size_t i = 0; i < POINTS; i++)
-			if (!(fabs(value_of(c, precision, part * POINTS + i) - known[i]) <=
-			      tolerance * largest))
-				return false;
-	}
-	return true;
+	return bench_numbers_agree((bench_numbers){ c->values, precision },
+	                           (bench_numbers){ c->known, BATTEN_F64 }, (size_t)OF_PEER * 2,
+	                           POINTS);
 }
 
 static batten_status run_case(const bench_settings *settings, contest *c,

@@ -4,89 +4,44 @@
  * alone, the ratio being the part of its rate that is left when everything runs; all stages one after the
  * other, the ratio being what their overlap gains; and the CPU time spread over all cores, the ratio being
  * the part of the cores in use: where the device is a processor no overlap can pass it. */
-#include "bench.h"
+#include "sweep_files.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-enum { STATIONS = 21, WATERLINES = 20, NODES = STATIONS * WATERLINES, PATH_MOST = 256 };
+enum { STATIONS = 21, WATERLINES = 20 };
 
-/* The files of a run, in a folder of its own. */
+/* The files of a run. */
 struct files {
-	char folder[PATH_MOST], hull[PATH_MOST + 16], plan[PATH_MOST + 16], database[PATH_MOST + 16];
+	sweep_files made;
+	char database[SWEEP_PATH_MOST];
 };
 
-static batten_status write_hull(batten_context *context, const char *path)
+static batten_status write_plan(const sweep_files *files, batten_precision precision,
+                                unsigned count)
 {
-	double x[STATIONS];
-	double z[WATERLINES];
-	double y[NODES];
-	uint32_t state = 2654435761u;
-	for (int i = 0; i < STATIONS; i++)
-		x[i] = 0.8 * i;
-	for (int k = 0; k < WATERLINES; k++)
-		z[k] = k / 19.0;
-	for (int n = 0; n < NODES; n++) {
-		const double u = (x[n % STATIONS] - 8.0) / 8.0;
-		const double v = 1.0 - z[n / STATIONS];
-		const double exact = 0.8 * (1.0 - u * u) * (1.0 - v * v);
-		state = state * 1664525u + 1013904223u;
-		const double noisy = exact + 0.02 * ((double)(state >> 8) / (1u << 24) - 0.5);
-		y[n] = exact > 0.0 && noisy > 0.0 ? noisy : 0.0;
-	}
-	const batten_hull_table table = { .name = "noisy Wigley hull",
-		                              .lbp_m = 16.0,
-		                              .draft_m = 1.0,
-		                              .station_count = STATIONS,
-		                              .waterline_count = WATERLINES,
-		                              .x_m = x,
-		                              .z_m = z,
-		                              .y_m = y };
-	batten_hull *hull = NULL;
-	batten_status status = batten_hull_create(context, &table, &hull);
-	if (status == BATTEN_OK)
-		status = batten_hull_write(context, hull, path);
-	batten_hull_destroy(hull);
-	return status;
-}
-
-static batten_status write_plan(const char *path, batten_precision precision, unsigned count)
-{
-	FILE *stream = fopen(path, "w");
-	if (!stream)
-		return BATTEN_IO;
-	(void)fprintf(
-		stream,
+	return sweep_files_write_plan(
+		files,
 		"{\"batten_plan\":1,\"name\":\"bench\",\"parent\":{\"hull\":\"hull.csv\"},"
 		"\"parameters\":{\"dcp\":{\"from\":-3,\"to\":3},\"dlcb\":{\"from\":-1,\"to\":1}},"
 		"\"sampling\":{\"method\":\"sobol\",\"count\":%u},\"vary\":{\"method\":\"lackenby\","
 		"\"dcp_pct\":\"dcp\",\"dlcb_pct\":\"dlcb\"},\"fair\":{\"w2_over_w1\":1000,"
 		"\"precision\":\"%s\"},\"measure\":{\"drafts_m\":[0.6,0.8,1.0]}}\n",
 		count, precision == BATTEN_F64 ? "f64" : "f32");
-	return fclose(stream) == 0 ? BATTEN_OK : BATTEN_IO;
 }
 
 static batten_status make_files(batten_context *context, struct files *files)
 {
-	const char *folder = getenv("TMPDIR");
-	(void)snprintf(files->folder, sizeof files->folder, "%.200s/batten-bench.XXXXXX",
-	               folder ? folder : "/tmp");
-	if (!mkdtemp(files->folder))
-		return BATTEN_IO;
-	(void)snprintf(files->hull, sizeof files->hull, "%s/hull.csv", files->folder);
-	(void)snprintf(files->plan, sizeof files->plan, "%s/plan.json", files->folder);
-	(void)snprintf(files->database, sizeof files->database, "%s/sweep.db", files->folder);
-	return write_hull(context, files->hull);
+	const batten_status status = sweep_files_create(context, STATIONS, WATERLINES, 0.02,
+	                                                &files->made);
+	(void)snprintf(files->database, sizeof files->database, "%s/sweep.db", files->made.folder);
+	return status;
 }
 
 static void remove_files(const struct files *files)
 {
 	(void)unlink(files->database);
-	(void)unlink(files->plan);
-	(void)unlink(files->hull);
-	(void)rmdir(files->folder);
+	sweep_files_remove(&files->made);
 }
 
 /* What is timed of a sweep: itself, and what it is held against. */
@@ -119,8 +74,8 @@ static batten_status sweep(const bench_settings *settings, const struct files *f
 	batten_sweep_options_default(&options);
 	options.device = settings->device;
 	options.stages_take_turns = stages_take_turns;
-	const batten_status status = batten_sweep_run(settings->context, files->plan, files->database,
-	                                              &options, progress);
+	const batten_status status = batten_sweep_run(settings->context, files->made.plan,
+	                                              files->database, &options, progress);
 	(void)unlink(files->database);
 	return status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
 }
@@ -156,7 +111,7 @@ static batten_status run(const bench_settings *settings, const struct files *fil
 {
 	bench_row row = { .name = "sweep.end_to_end", .precision = precision, .unit = "us/hull" };
 	struct timings timings = { .slowest_name = "" };
-	batten_status status = write_plan(files->plan, precision, count);
+	batten_status status = write_plan(&files->made, precision, count);
 	/* The first one builds the kernels. */
 	if (status == BATTEN_OK)
 		status = sweep(settings, files, false, &timings.progress);

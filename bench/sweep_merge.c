@@ -2,66 +2,33 @@
  * measures, and hydrostatics at a draft. The shards are made here, of a small hull that is not faired, so
  * that they are made soon; a row weighs the same. The reference copies the same bytes to one file and
  * brings them to the disk. CPU time of one thread. */
-#include "bench.h"
+#include "sweep_files.h"
 
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SIDE = 5, PATH_MOST = 256, NAME_MOST = 32, SHARDS_MOST = 100, TABLES = 4, BUFFER = 1 << 20 };
+enum { SIDE = 5, SHARDS_MOST = 100, TABLES = 4, BUFFER = 1 << 20 };
 
 struct shards {
-	char folder[PATH_MOST], hull[PATH_MOST + 16], plan[PATH_MOST + 16], merged[PATH_MOST + 16];
+	sweep_files files;
+	char merged[SWEEP_PATH_MOST];
 	size_t count, designs; /* of each */
-	char names[SHARDS_MOST][PATH_MOST + NAME_MOST];
+	char names[SHARDS_MOST][SWEEP_PATH_MOST];
 	const char *paths[SHARDS_MOST];
 };
 
-static batten_status write_hull(batten_context *context, const char *path)
-{
-	double x[SIDE];
-	double z[SIDE];
-	double y[SIDE * SIDE];
-	for (int i = 0; i < SIDE; i++) {
-		x[i] = 4.0 * i;
-		z[i] = 0.25 * i;
-	}
-	for (int n = 0; n < SIDE * SIDE; n++) {
-		const double u = (x[n % SIDE] - 8.0) / 8.0;
-		const double v = 1.0 - z[n / SIDE];
-		y[n] = 0.8 * (1.0 - u * u) * (1.0 - v * v);
-	}
-	const batten_hull_table table = { .name = "small Wigley hull",
-		                              .lbp_m = 16.0,
-		                              .draft_m = 1.0,
-		                              .station_count = SIDE,
-		                              .waterline_count = SIDE,
-		                              .x_m = x,
-		                              .z_m = z,
-		                              .y_m = y };
-	batten_hull *hull = NULL;
-	batten_status status = batten_hull_create(context, &table, &hull);
-	if (status == BATTEN_OK)
-		status = batten_hull_write(context, hull, path);
-	batten_hull_destroy(hull);
-	return status;
-}
-
 static batten_status write_plan(const struct shards *shards)
 {
-	FILE *stream = fopen(shards->plan, "w");
-	if (!stream)
-		return BATTEN_IO;
-	(void)fprintf(stream,
-	              "{\"batten_plan\":1,\"name\":\"bench\",\"parent\":{\"hull\":\"hull.csv\"},"
-	              "\"parameters\":{\"dcp\":{\"from\":-3,\"to\":3}},"
-	              "\"sampling\":{\"method\":\"sobol\",\"count\":%zu},\"vary\":{\"method\":"
-	              "\"lackenby\",\"dcp_pct\":\"dcp\"},\"measure\":{\"drafts_m\":[0.8]}}\n",
-	              shards->count * shards->designs);
-	return fclose(stream) == 0 ? BATTEN_OK : BATTEN_IO;
+	return sweep_files_write_plan(
+		&shards->files,
+		"{\"batten_plan\":1,\"name\":\"bench\",\"parent\":{\"hull\":\"hull.csv\"},"
+		"\"parameters\":{\"dcp\":{\"from\":-3,\"to\":3}},"
+		"\"sampling\":{\"method\":\"sobol\",\"count\":%zu},\"vary\":{\"method\":"
+		"\"lackenby\",\"dcp_pct\":\"dcp\"},\"measure\":{\"drafts_m\":[0.8]}}\n",
+		shards->count * shards->designs);
 }
 
 static batten_status make_shards(const bench_settings *settings, struct shards *shards)
@@ -70,15 +37,13 @@ static batten_status make_shards(const bench_settings *settings, struct shards *
 	batten_sweep_options_default(&options);
 	options.device = settings->device;
 	options.shard_count = shards->count;
-	batten_status status = write_hull(settings->context, shards->hull);
-	if (status == BATTEN_OK)
-		status = write_plan(shards);
+	batten_status status = write_plan(shards);
 	for (size_t s = 0; s < shards->count && status == BATTEN_OK; s++) {
 		options.shard = s + 1;
-		(void)snprintf(shards->names[s], sizeof shards->names[s], "%s/%zu.db", shards->folder,
+		(void)snprintf(shards->names[s], sizeof shards->names[s], "%s/%zu.db", shards->files.folder,
 		               s + 1);
 		shards->paths[s] = shards->names[s];
-		status = batten_sweep_run(settings->context, shards->plan, shards->paths[s], &options,
+		status = batten_sweep_run(settings->context, shards->files.plan, shards->paths[s], &options,
 		                          NULL);
 		status = status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
 	}
@@ -147,14 +112,11 @@ static void remove_shards(const struct shards *shards)
 	for (size_t s = 0; s < shards->count; s++)
 		if (shards->paths[s])
 			(void)unlink(shards->paths[s]);
-	(void)unlink(shards->plan);
-	(void)unlink(shards->hull);
-	(void)rmdir(shards->folder);
+	sweep_files_remove(&shards->files);
 }
 
 batten_status bench_sweep_merge(const bench_settings *settings)
 {
-	const char *folder = getenv("TMPDIR");
 	bench_row row = { .name = "sweep.merge",
 		              .precision = BATTEN_F64,
 		              .unit = "us per row",
@@ -164,12 +126,8 @@ batten_status bench_sweep_merge(const bench_settings *settings)
 		return BATTEN_MEMORY;
 	shards->count = settings->full ? SHARDS_MOST : 10;
 	shards->designs = settings->full ? 10000 : 500;
-	(void)snprintf(shards->folder, sizeof shards->folder, "%.200s/batten-bench.XXXXXX",
-	               folder ? folder : "/tmp");
-	batten_status status = mkdtemp(shards->folder) ? BATTEN_OK : BATTEN_IO;
-	(void)snprintf(shards->hull, sizeof shards->hull, "%s/hull.csv", shards->folder);
-	(void)snprintf(shards->plan, sizeof shards->plan, "%s/plan.json", shards->folder);
-	(void)snprintf(shards->merged, sizeof shards->merged, "%s/merged.db", shards->folder);
+	batten_status status = sweep_files_create(settings->context, SIDE, SIDE, 0.0, &shards->files);
+	(void)snprintf(shards->merged, sizeof shards->merged, "%s/merged.db", shards->files.folder);
 	(void)snprintf(row.case_name, sizeof row.case_name, "%zu shards of %zu designs", shards->count,
 	               shards->designs);
 	if (status == BATTEN_OK)

@@ -326,6 +326,14 @@ size_t hull_node_count(const batten_hull *hull)
 	return hull->station_count * hull->waterline_count;
 }
 
+bool hull_same_table(const batten_hull *a, const batten_hull *b)
+{
+	return a == b ||
+	       (a->station_count == b->station_count && a->waterline_count == b->waterline_count &&
+	        memcmp(a->x_m, b->x_m, a->station_count * sizeof *a->x_m) == 0 &&
+	        memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0);
+}
+
 /* Filled '?' nodes do not count: a spline may overshoot the given breadth. */
 double batten_hull_half_beam_m(const batten_hull *hull)
 {

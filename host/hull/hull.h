@@ -116,6 +116,9 @@ void hull_knuckle_sort(batten_hull *hull);
 bool hull_knuckle_between(const batten_hull *hull, bool waterline, size_t line, double a, double b);
 
 size_t hull_node_count(const batten_hull *hull);
+
+/* Whether both have the same stations and waterlines, to the bit. */
+bool hull_same_table(const batten_hull *a, const batten_hull *b);
 const char *hull_unit_text(hull_unit unit);
 const char *hull_frame_text(hull_frame frame);
 

@@ -2,20 +2,11 @@
 #include "picture/lines_page.h"
 
 #include <math.h>
-#include <string.h>
 
 const double lines_moved_part = 0.01;
 
 /* Lines of one kind drawn at most. */
 enum { LINE_LIMIT = 50 };
-
-static bool same_table(const batten_hull *a, const batten_hull *b)
-{
-	if (a->station_count != b->station_count || a->waterline_count != b->waterline_count)
-		return false;
-	return memcmp(a->x_m, b->x_m, a->station_count * sizeof *a->x_m) == 0 &&
-	       memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0;
-}
 
 bool lines_page_moved(const lines_page *page, size_t node)
 {
@@ -96,7 +87,7 @@ batten_status lines_page_lay_out(lines_page *page)
 	lines_box *box = &page->box;
 	if (!(box->x_low <= box->x_high && box->z_low <= box->z_high))
 		return batten_fail(page->context, BATTEN_INPUT, "%s: no point to draw", page->after->name);
-	page->compared = page->before && same_table(page->before, page->after);
+	page->compared = page->before && hull_same_table(page->before, page->after);
 	page->station_stride = 1 + page->after->station_count / (LINE_LIMIT + 1);
 	page->waterline_stride = 1 + page->after->waterline_count / (LINE_LIMIT + 1);
 	place_body_plan(page);

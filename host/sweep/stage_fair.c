@@ -28,14 +28,6 @@ static const batten_hull *form_of(const sweep_block *block, size_t i)
 	return design->form ? design->form : block->plan->parent;
 }
 
-static bool same_table(const batten_hull *a, const batten_hull *b)
-{
-	return a == b ||
-	       (a->station_count == b->station_count && a->waterline_count == b->waterline_count &&
-	        memcmp(a->x_m, b->x_m, a->station_count * sizeof *a->x_m) == 0 &&
-	        memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0);
-}
-
 /* Whether one launch takes both: the same table and settings of the search. */
 static bool go_together(const sweep_block *block, size_t i, size_t j)
 {
@@ -43,7 +35,7 @@ static bool go_together(const sweep_block *block, size_t i, size_t j)
 	const plan_fairing_numbers *b = &block->designs[j].fairing;
 	return a->first_step == b->first_step && a->last_step == b->last_step &&
 	       a->iteration_limit == b->iteration_limit && a->longitudinal == b->longitudinal &&
-	       a->transverse == b->transverse && same_table(form_of(block, i), form_of(block, j));
+	       a->transverse == b->transverse && hull_same_table(form_of(block, i), form_of(block, j));
 }
 
 /* Moves the designs of order[first..count) that go with the first to the front; returns the
