@@ -19,6 +19,13 @@ typedef struct difference_quartic {
 difference_quartic difference_quartic_of(const double *at);
 
 /* That derivative; the values are step apart in y. */
-double difference_third(const difference_quartic *quartic, const double *y, ptrdiff_t step);
+static inline double difference_third(const difference_quartic *quartic, const double *y,
+                                      ptrdiff_t step)
+{
+	double sum = 0.0;
+	for (ptrdiff_t k = 0; k < 4; k++)
+		sum += quartic->weight[k] * (y[(k - 1) * step] - y[(k - 2) * step]);
+	return sum;
+}
 
 #endif

@@ -1,4 +1,4 @@
-#include "fairing/lines.h"
+#include "fairing/grid_lines.h"
 
 #include <float.h>
 #include <math.h>
@@ -119,29 +119,6 @@ bool lines_are_of_grid(const batten_hull *hull)
 	       hull->knuckle_count == 0;
 }
 
-/* One line of a hull that is nothing but its grid; along_m and value_m have room for its points. */
-static lines_sum line_of_grid(const batten_hull *hull, bool waterline, size_t line, double *along_m,
-                              double *value_m)
-{
-	const double *at = waterline ? hull->x_m : hull->z_m;
-	const size_t length = waterline ? hull->station_count : hull->waterline_count;
-	const size_t step = waterline ? 1 : hull->station_count;
-	size_t node = waterline ? line * hull->station_count : line;
-	lines_sum sum = { 0 };
-	size_t count = 0;
-	for (size_t i = 0; i < length; i++, node += step) {
-		if (hull->nodes[node] == BATTEN_NODE_GIVEN) {
-			along_m[count] = at[i];
-			value_m[count++] = hull->y_m[node];
-		} else if (hull->nodes[node] == BATTEN_NODE_OUTSIDE) {
-			add_piece(&sum, count, along_m, value_m);
-			count = 0;
-		}
-	}
-	add_piece(&sum, count, along_m, value_m);
-	return sum;
-}
-
 static batten_status line_of_any(const batten_hull *hull, bool waterline, size_t line,
                                  lines_sum *sum)
 {
@@ -158,21 +135,22 @@ batten_status lines_of_hull(const batten_hull *hull, bool waterlines, lines_sum 
 {
 	lines_sum total = { 0 };
 	const size_t count = waterlines ? hull->waterline_count : hull->station_count;
-	const size_t length = waterlines ? hull->station_count : hull->waterline_count;
-	const bool plain = lines_are_of_grid(hull);
-	double *room = batten_allocate(hull->context, length, 2 * sizeof *room);
-	batten_status status = room ? BATTEN_OK : BATTEN_MEMORY;
+	grid_lines *table = NULL;
+	batten_status status = lines_are_of_grid(hull)
+	                           ? grid_lines_create(hull->context, hull, waterlines, &table)
+	                           : BATTEN_OK;
+	if (table) {
+		*out = grid_lines_sum(table, hull->y_m);
+		grid_lines_destroy(table);
+		return BATTEN_OK;
+	}
 	for (size_t line = 0; line < count && status == BATTEN_OK; line++) {
 		lines_sum sum = { 0 };
-		if (plain)
-			sum = line_of_grid(hull, waterlines, line, room, room + length);
-		else
-			status = line_of_any(hull, waterlines, line, &sum);
+		status = line_of_any(hull, waterlines, line, &sum);
 		total.fn_per_m2 += sum.fn_per_m2;
 		total.interior_count += sum.interior_count;
 		total.inflections += sum.inflections;
 	}
-	batten_release(hull->context, room);
 	if (total.interior_count == 0)
 		total.fn_per_m2 = NAN;
 	if (status == BATTEN_OK)

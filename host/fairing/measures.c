@@ -2,12 +2,7 @@
  * is from another. */
 #include "fairing/measures.h"
 
-#include "core/difference.h"
 #include "fairing/lines.h"
-#include "fairing/noise.h"
-#include "geometry/grid_curvature.h"
-#include "geometry/grid_variation.h"
-#include "hull/hull.h"
 
 #include <math.h>
 
@@ -46,51 +41,12 @@ static void take_form(const batten_hydrostatics *from, batten_measures *out)
 #undef TAKE_QUANTITY
 }
 
-static batten_status take_energies(batten_context *context, const batten_hull *hull,
-                                   batten_measures *out)
-{
-	grid_curvature *grid = NULL;
-	batten_status status = grid_curvature_create(context, hull, &grid);
-	if (status != BATTEN_OK)
-		return status;
-	bool any = grid->own_count > 0;
-	out->energy_bending = out->energy_mean = out->energy_gauss = any ? 0 : NAN;
-	for (size_t i = 0; any && i < hull_node_count(hull); i++) {
-		if (grid->origin[i] != GRID_CURVATURE_OWN)
-			continue;
-		double area = grid->area_m2[i], mean = grid->mean_per_m[i];
-		out->energy_bending += grid->bending_per_m2[i] * area;
-		out->energy_mean += mean * mean * area;
-		out->energy_gauss += fabs(grid->gauss_per_m2[i]) * area;
-	}
-	status = grid_variation_sum(context, hull, grid, &out->energy_mvc_per_m2);
-	grid_curvature_destroy(context, grid);
-	return status;
-}
-
-static batten_status take_fairness(batten_context *context, const batten_hull *hull,
-                                   batten_measures *out)
-{
-	lines_sum waterlines, sections;
-	batten_status status = lines_of_hull(hull, true, &waterlines);
-	if (status == BATTEN_OK)
-		status = lines_of_hull(hull, false, &sections);
-	if (status == BATTEN_OK)
-		status = noise_estimate(context, hull, &out->noise_m);
-	if (status != BATTEN_OK)
-		return status;
-	out->fn_per_m2 = waterlines.fn_per_m2;
-	out->fn_sections_per_m2 = sections.fn_per_m2;
-	out->inflections = (double)(waterlines.inflections + sections.inflections);
-	return take_energies(context, hull, out);
-}
-
-batten_status measures_complete(batten_context *context, const batten_hull *hull,
+batten_status measures_complete(measure_room *room, const batten_hull *hull,
                                 const batten_hydrostatics *form, batten_measures *out)
 {
 	batten_measures made = { 0 };
 	take_form(form, &made);
-	const batten_status status = take_fairness(context, hull, &made);
+	const batten_status status = measure_room_fairness(room, hull, &made);
 	if (status == BATTEN_OK)
 		*out = made;
 	return status;
@@ -130,7 +86,12 @@ batten_status batten_hull_measure(batten_context *context, const batten_hull *hu
 		return BATTEN_INPUT;
 	if (status != BATTEN_OK)
 		return status;
-	return measures_complete(context, hull, &body, out);
+	measure_room *room = NULL;
+	status = measure_room_create(context, &room);
+	if (status == BATTEN_OK)
+		status = measures_complete(room, hull, &body, out);
+	measure_room_destroy(room);
+	return status;
 }
 
 static bool same_coordinates(size_t count, const double *a, const double *b)
@@ -171,27 +132,10 @@ batten_status batten_hull_closeness(batten_context *context, const batten_hull *
 	batten_status status = check_same_table(context, hull, reference);
 	if (status != BATTEN_OK)
 		return status;
-	batten_closeness made = { 0 };
-	double squares = 0, counted = 0;
-	for (size_t i = 0; i < hull_node_count(hull); i++) {
-		/* Neither outside, nor a '?': what fills it is no offset that could move. */
-		if (hull->nodes[i] != BATTEN_NODE_GIVEN)
-			continue;
-		double change = hull->y_m[i] - reference->y_m[i];
-		made.closeness_m4 += change * change *
-		                     difference_cell(hull->x_m, hull->station_count,
-		                                     i % hull->station_count) *
-		                     difference_cell(hull->z_m, hull->waterline_count,
-		                                     i / hull->station_count);
-		made.cn_max_m = fmax(made.cn_max_m, fabs(change));
-		if (hull->y_m[i] > 0 || reference->y_m[i] > 0) {
-			squares += change * change;
-			counted += 1;
-		}
-	}
-	made.cn_rms_m = counted > 0 ? sqrt(squares / counted) : 0;
-	double half_beam = batten_hull_half_beam_m(reference);
-	made.cn_pct = half_beam > 0 ? 100 * made.cn_max_m / half_beam : NAN;
-	*out = made;
-	return BATTEN_OK;
+	measure_room *room = NULL;
+	status = measure_room_create(context, &room);
+	if (status == BATTEN_OK)
+		status = measure_room_closeness(room, hull, reference, out);
+	measure_room_destroy(room);
+	return status;
 }

@@ -2,10 +2,10 @@
 #ifndef BATTEN_FAIRING_MEASURES_H
 #define BATTEN_FAIRING_MEASURES_H
 
-#include "hull/hull.h"
+#include "fairing/measure_room.h"
 
 /* form: at the draft of the measures. Errors: MEMORY. */
-batten_status measures_complete(batten_context *context, const batten_hull *hull,
+batten_status measures_complete(measure_room *room, const batten_hull *hull,
                                 const batten_hydrostatics *form, batten_measures *out);
 
 #endif

@@ -21,4 +21,7 @@
  * that no knuckle and no empty cell breaks. Errors: MEMORY. */
 batten_status noise_estimate(batten_context *context, const batten_hull *hull, double *noise_m);
 
+/* The same from the scales of both directions, infinite where there are too few differences. */
+double noise_of_scales(const double along[2]);
+
 #endif

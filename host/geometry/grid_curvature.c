@@ -1,103 +1,160 @@
 #include "geometry/grid_curvature.h"
 
-#include "core/difference.h"
+#include "core/runs.h"
 #include "hull/hull.h"
 
 #include <math.h>
+#include <string.h>
 
 #define BATTEN_DIALECT_C
 #define BATTEN_DOUBLE 1
+#include "shared/dialect.h"
+#undef SHARED_FUNCTION
+#define SHARED_FUNCTION INLINED
 #include "shared/grid_energy.h"
 
 enum { ARRAY_COUNT = 9 };
 
-/* The two tables of weights, STENCIL_SIZE a station and a waterline. */
-typedef struct stencils {
-	double *along_x, *along_z;
-} stencils;
+/* ---- which nodes have curvatures of their own ---- */
 
-/* The weights of stencil_first() and stencil_second(). */
-static double *weights_along(batten_context *context, const double *coordinate, size_t count)
+static void mark_own_nodes(const batten_hull *hull, grid_curvature *grid)
 {
-	double *weights = batten_allocate(context, count, STENCIL_SIZE * sizeof *weights);
-	if (!weights)
-		return NULL;
-	for (size_t i = 1; i + 1 < count; i++)
-		difference_weights(coordinate + i, weights + STENCIL_SIZE * i);
-	return weights;
+	const size_t row = hull->station_count;
+	size_t own = 0;
+	for (size_t j = 1; j + 1 < hull->waterline_count; j++)
+		for (size_t i = 1; i + 1 < row; i++) {
+			const uint8_t *at = hull->nodes + j * row + i;
+			bool all = true;
+			for (size_t n = 0; n < 3; n++) {
+				const uint8_t *line = at - row + n * row;
+				all = all & (line[-1] != BATTEN_NODE_OUTSIDE) & (line[0] != BATTEN_NODE_OUTSIDE) &
+				      (line[1] != BATTEN_NODE_OUTSIDE);
+			}
+			grid->origin[j * row + i] = all ? GRID_CURVATURE_OWN : GRID_CURVATURE_NONE;
+			own += all;
+		}
+	grid->own_count = own;
 }
 
-static bool all_nine_on_hull(const batten_hull *hull, size_t waterline, size_t station)
-{
-	for (size_t j = waterline - 1; j <= waterline + 1; j++)
-		for (size_t i = station - 1; i <= station + 1; i++)
-			if (hull->nodes[j * hull->station_count + i] == BATTEN_NODE_OUTSIDE)
-				return false;
-	return true;
-}
+/* ---- their curvatures ---- */
 
-static node_row row_at(const batten_hull *hull, size_t waterline, size_t station)
+/* What is found at the nodes of a run, in the order of the arrays of a grid_curvature. */
+typedef struct run_values {
+	double y_x[RUN_LENGTH], y_z[RUN_LENGTH], y_xx[RUN_LENGTH], y_xz[RUN_LENGTH], y_zz[RUN_LENGTH];
+	double mean[RUN_LENGTH], gauss[RUN_LENGTH], bending[RUN_LENGTH], area[RUN_LENGTH];
+} run_values;
+
+INLINED node_row row_at(const double *y)
 {
-	const double *y = hull->y_m + waterline * hull->station_count + station;
 	return (node_row){ .aft = y[-1], .here = y[0], .fore = y[1] };
 }
 
-static void take_derivatives(const batten_hull *hull, const stencils *weights, size_t waterline,
-                             size_t station, grid_curvature *grid)
+INLINED node_stencil stencil_of(const grid_stencils *stencils, const grid_stencil *z,
+                                size_t station)
 {
 	node_stencil stencil;
 	for (size_t k = 0; k < STENCIL_SIZE; k++) {
-		stencil.x[k] = weights->along_x[STENCIL_SIZE * station + k];
-		stencil.z[k] = weights->along_z[STENCIL_SIZE * waterline + k];
+		stencil.x[k] = stencils->weight_x[k][station];
+		stencil.z[k] = z->weight[k];
 	}
-	node_slopes slopes = slopes_of(stencil, row_at(hull, waterline - 1, station),
-	                               row_at(hull, waterline, station),
-	                               row_at(hull, waterline + 1, station));
-	size_t node = waterline * hull->station_count + station;
-	grid->y_x[node] = slopes.y_x;
-	grid->y_z[node] = slopes.y_z;
-	grid->y_xx_per_m[node] = slopes.y_xx;
-	grid->y_xz_per_m[node] = slopes.y_xz;
-	grid->y_zz_per_m[node] = slopes.y_zz;
+	return stencil;
 }
 
 /* Mean and Gauss curvature of a graph and its area element (Letcher 4.2-4.3), by the outward normal
  * (-y_x, 1, -y_z): with it a convex hull has y_xx, y_zz < 0. */
-static void take_curvatures(const batten_hull *hull, size_t waterline, size_t station,
-                            grid_curvature *grid)
+INLINED void take_curvatures(node_slopes d, double cell_x, double cell_z, size_t l, run_values *out)
 {
-	size_t node = waterline * hull->station_count + station;
-	double p = grid->y_x[node];
-	double q = grid->y_z[node];
-	double r = grid->y_xx_per_m[node];
-	double s = grid->y_xz_per_m[node];
-	double t = grid->y_zz_per_m[node];
-	double square = 1.0 + p * p + q * q;
-	double twice_mean = ((1.0 + q * q) * r - 2.0 * p * q * s + (1.0 + p * p) * t) /
-	                    (square * sqrt(square));
-	double mean = 0.5 * twice_mean;
-	double gauss = (r * t - s * s) / (square * square);
-	double bending = twice_mean * twice_mean - 2.0 * gauss;
-	double cell_x = difference_cell(hull->x_m, hull->station_count, station);
-	double cell_z = difference_cell(hull->z_m, hull->waterline_count, waterline);
-	grid->mean_per_m[node] = mean;
-	grid->gauss_per_m2[node] = gauss;
-	grid->bending_per_m2[node] = bending > 0.0 ? bending : 0.0;
-	grid->area_m2[node] = sqrt(square) * cell_x * cell_z;
+	const double square = 1.0 + d.y_x * d.y_x + d.y_z * d.y_z;
+	const double root = sqrt(square);
+	const double twice_mean = ((1.0 + d.y_z * d.y_z) * d.y_xx - 2.0 * d.y_x * d.y_z * d.y_xz +
+	                           (1.0 + d.y_x * d.y_x) * d.y_zz) /
+	                          (square * root);
+	const double gauss = (d.y_xx * d.y_zz - d.y_xz * d.y_xz) / (square * square);
+	const double bending = twice_mean * twice_mean - 2.0 * gauss;
+	out->mean[l] = 0.5 * twice_mean;
+	out->gauss[l] = gauss;
+	out->bending[l] = bending > 0.0 ? bending : 0.0;
+	out->area[l] = root * cell_x * cell_z;
 }
 
-static void take_own_nodes(const batten_hull *hull, const stencils *weights, grid_curvature *grid)
+/* count: at most RUN_LENGTH. */
+INLINED void work_run(const batten_hull *hull, const grid_stencils *stencils, size_t waterline,
+                      size_t station, size_t count, run_values *out)
 {
-	for (size_t j = 1; j + 1 < hull->waterline_count; j++)
-		for (size_t i = 1; i + 1 < hull->station_count; i++) {
-			if (!all_nine_on_hull(hull, j, i))
-				continue;
-			take_derivatives(hull, weights, j, i, grid);
-			take_curvatures(hull, j, i, grid);
-			grid->origin[j * hull->station_count + i] = GRID_CURVATURE_OWN;
-			grid->own_count++;
-		}
+	const size_t row = hull->station_count;
+	const double *y = hull->y_m + waterline * row + station;
+	const grid_stencil z = stencils->z[waterline];
+	RUN_LOOP
+	for (size_t l = 0; l < count; l++) {
+		const node_slopes d = slopes_of(stencil_of(stencils, &z, station + l), row_at(y + l - row),
+		                                row_at(y + l), row_at(y + l + row));
+		out->y_x[l] = d.y_x;
+		out->y_z[l] = d.y_z;
+		out->y_xx[l] = d.y_xx;
+		out->y_xz[l] = d.y_xz;
+		out->y_zz[l] = d.y_zz;
+		take_curvatures(d, stencils->cell_x_m[station + l], z.cell_m, l, out);
+	}
 }
+
+/* Nothing where a node has no curvature of its own. */
+INLINED void put_values(const double *value, const double *own, size_t count, double *restrict to)
+{
+	RUN_LOOP
+	for (size_t l = 0; l < count; l++)
+		to[l] = own[l] > 0 ? value[l] : 0.0;
+}
+
+INLINED void put_run(const run_values *run, size_t node, size_t count, const grid_curvature *grid)
+{
+	double own[RUN_LENGTH];
+	RUN_LOOP
+	for (size_t l = 0; l < count; l++)
+		own[l] = grid->origin[node + l] == GRID_CURVATURE_OWN ? 1.0 : 0.0;
+	put_values(run->y_x, own, count, grid->y_x + node);
+	put_values(run->y_z, own, count, grid->y_z + node);
+	put_values(run->y_xx, own, count, grid->y_xx_per_m + node);
+	put_values(run->y_xz, own, count, grid->y_xz_per_m + node);
+	put_values(run->y_zz, own, count, grid->y_zz_per_m + node);
+	put_values(run->mean, own, count, grid->mean_per_m + node);
+	put_values(run->gauss, own, count, grid->gauss_per_m2 + node);
+	put_values(run->bending, own, count, grid->bending_per_m2 + node);
+	put_values(run->area, own, count, grid->area_m2 + node);
+}
+
+INLINED void work_rows(const batten_hull *hull, const grid_stencils *stencils, grid_curvature *grid)
+{
+	const size_t end = hull->station_count - 1;
+	run_values run;
+	for (size_t j = 1; j + 1 < hull->waterline_count; j++) {
+		const size_t node = j * hull->station_count;
+		if (end < 1 + RUN_LENGTH) {
+			work_run(hull, stencils, j, 1, end - 1, &run);
+			put_run(&run, node + 1, end - 1, grid);
+			continue;
+		}
+		for (size_t i = 1, next = 1; next < end; i = run_after(i, end)) {
+			work_run(hull, stencils, j, i, RUN_LENGTH, &run);
+			put_run(&run, node + i, RUN_LENGTH, grid);
+			next = i + RUN_LENGTH;
+		}
+	}
+}
+
+RUNS_FUNCTION(take_rows, work_rows,
+              (const batten_hull *hull, const grid_stencils *stencils, grid_curvature *grid),
+              (hull, stencils, grid))
+
+void grid_curvature_fill(const batten_hull *hull, const grid_stencils *stencils,
+                         grid_curvature *grid)
+{
+	if (hull->station_count < 3 || hull->waterline_count < 3)
+		return;
+	mark_own_nodes(hull, grid);
+	take_rows(hull, stencils, grid);
+}
+
+/* ---- what their neighbours borrow, for pictures ---- */
 
 /* The nearest OWN node found so far for every node. */
 typedef struct lender {
@@ -163,20 +220,21 @@ static batten_status borrow_at_edges(batten_context *context, const batten_hull 
 	return BATTEN_OK;
 }
 
-static grid_curvature *allocate_grid(batten_context *context, const batten_hull *hull)
+batten_status grid_curvature_allocate(batten_context *context, size_t station_count,
+                                      size_t waterline_count, grid_curvature **out)
 {
-	size_t count = hull_node_count(hull);
+	const size_t count = station_count * waterline_count;
 	grid_curvature *grid = batten_allocate(context, 1, sizeof *grid);
 	if (!grid)
-		return NULL;
-	grid->station_count = hull->station_count;
-	grid->waterline_count = hull->waterline_count;
+		return BATTEN_MEMORY;
+	grid->station_count = station_count;
+	grid->waterline_count = waterline_count;
 	grid->origin = batten_allocate(context, count, 1);
 	double *block = batten_allocate(context, count, ARRAY_COUNT * sizeof *block);
 	grid->y_x = block; /* first of the block: what is released */
 	if (!grid->origin || !block) {
 		grid_curvature_destroy(context, grid);
-		return NULL;
+		return BATTEN_MEMORY;
 	}
 	double **arrays[ARRAY_COUNT] = {
 		&grid->y_x,        &grid->y_z,        &grid->y_xx_per_m,   &grid->y_xz_per_m,
@@ -185,28 +243,29 @@ static grid_curvature *allocate_grid(batten_context *context, const batten_hull 
 	};
 	for (size_t k = 0; k < ARRAY_COUNT; k++)
 		*arrays[k] = block + k * count;
-	return grid;
+	*out = grid;
+	return BATTEN_OK;
 }
 
 batten_status grid_curvature_create(batten_context *context, const batten_hull *hull,
                                     grid_curvature **out)
 {
-	grid_curvature *grid = allocate_grid(context, hull);
-	stencils weights = {
-		.along_x = weights_along(context, hull->x_m, hull->station_count),
-		.along_z = weights_along(context, hull->z_m, hull->waterline_count),
-	};
-	batten_status status = BATTEN_MEMORY;
-	if (grid && weights.along_x && weights.along_z) {
-		take_own_nodes(hull, &weights, grid);
+	grid_curvature *grid = NULL;
+	grid_stencils stencils;
+	batten_status status = grid_stencils_create(context, hull->station_count, hull->x_m,
+	                                            hull->waterline_count, hull->z_m, &stencils);
+	if (status != BATTEN_OK)
+		return status;
+	status = grid_curvature_allocate(context, hull->station_count, hull->waterline_count, &grid);
+	if (status == BATTEN_OK) {
+		grid_curvature_fill(hull, &stencils, grid);
 		status = borrow_at_edges(context, hull, grid);
 	}
 	if (status == BATTEN_OK) {
 		*out = grid;
 		grid = NULL;
 	}
-	batten_release(context, weights.along_x);
-	batten_release(context, weights.along_z);
+	grid_stencils_destroy(context, &stencils);
 	grid_curvature_destroy(context, grid);
 	return status;
 }

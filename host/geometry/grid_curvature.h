@@ -7,7 +7,7 @@
 #ifndef BATTEN_GEOMETRY_GRID_CURVATURE_H
 #define BATTEN_GEOMETRY_GRID_CURVATURE_H
 
-#include "core/context.h"
+#include "geometry/grid_stencils.h"
 
 typedef enum grid_curvature_origin {
 	GRID_CURVATURE_NONE = 0, /* outside the hull, or nothing to borrow from */
@@ -28,6 +28,15 @@ typedef struct grid_curvature {
 	double *area_m2;        /* dS = sqrt(1 + y_x^2 + y_z^2) dx dz, half-sum spacings; one side */
 	size_t own_count;       /* nodes with a curvature of their own */
 } grid_curvature;
+
+/* With all nodes NONE. Errors: MEMORY. */
+batten_status grid_curvature_allocate(batten_context *context, size_t station_count,
+                                      size_t waterline_count, grid_curvature **out);
+
+/* OWN nodes of a hull, and nothing borrowed; stencils and grid: of its table. grid was allocated, or filled
+ * for another hull. */
+void grid_curvature_fill(const batten_hull *hull, const grid_stencils *stencils,
+                         grid_curvature *grid);
 
 /* A table of fewer than three stations or waterlines has no OWN node. Errors: MEMORY. */
 batten_status grid_curvature_create(batten_context *context, const batten_hull *hull,

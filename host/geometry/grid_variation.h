@@ -13,8 +13,8 @@
 
 /* Sum of ((dk1/de1)^2 + (dk2/de2)^2) dS in 1/m^2 over the nodes that count, one side of the hull. Where
  * k1 and k2 are alike (kernels/shared/surface_variation.h) a node adds nothing. NaN when no node
- * counts. Errors: MEMORY. */
-batten_status grid_variation_sum(batten_context *context, const batten_hull *hull,
-                                 const grid_curvature *grid, double *out);
+ * counts. grid: filled for this hull. */
+double grid_variation_sum(const batten_hull *hull, const grid_stencils *stencils,
+                          const grid_curvature *grid);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MEASURE_PIECE = 32 };
+enum { MEASURE_PIECE = 64 };
 
 /* The block's designs, and those of them that lie on the parent's table: their hydrostatics are worked in
  * one batch, the draft of the parent after those of the plan. Which way a design goes depends on it alone:
@@ -21,7 +21,8 @@ struct measuring {
 
 /* ---- fairing ---- */
 
-static batten_status measure_fairing(batten_context *context, const sweep_block *block, size_t i)
+static batten_status measure_fairing(batten_context *context, measure_room *room,
+                                     const sweep_block *block, size_t i)
 {
 	sweep_design *design = &block->designs[i];
 	double *out = design->measures + BATTEN_MEASURE_COUNT;
@@ -32,7 +33,7 @@ static batten_status measure_fairing(batten_context *context, const sweep_block 
 	const batten_hull varied = sweep_block_varied(block, context, i);
 	const batten_hull faired = sweep_block_final(block, context, i);
 	batten_closeness closeness;
-	const batten_status status = batten_hull_closeness(context, &faired, &varied, &closeness);
+	const batten_status status = measure_room_closeness(room, &faired, &varied, &closeness);
 	if (status != BATTEN_OK)
 		return status;
 	out[SWEEP_cn_pct] = closeness.cn_pct;
@@ -82,14 +83,14 @@ static batten_hydrostatics *drafts_of(const sweep_block *block, size_t i)
 }
 
 /* Hydrostatics are there already. */
-static batten_status measure_batched(batten_context *context, const struct measuring *measuring,
+static batten_status measure_batched(measure_room *room, const struct measuring *measuring,
                                      const batten_hull *hull, size_t i, batten_measures *out)
 {
 	const size_t drafts = measuring->batch_drafts - 1;
 	const batten_hydrostatics *forms = measuring->forms +
 	                                   measuring->place[i] * measuring->batch_drafts;
 	memcpy(drafts_of(measuring->block, i), forms, drafts * sizeof *forms);
-	return measures_complete(context, hull, &forms[drafts], out);
+	return measures_complete(room, hull, &forms[drafts], out);
 }
 
 static batten_status measure_alone(batten_context *context, const struct measuring *measuring,
@@ -107,7 +108,8 @@ static batten_status measure_alone(batten_context *context, const struct measuri
 	return status;
 }
 
-static batten_status measure(batten_context *context, const struct measuring *measuring, size_t i)
+static batten_status measure(batten_context *context, measure_room *room,
+                             const struct measuring *measuring, size_t i)
 {
 	const sweep_block *block = measuring->block;
 	const sweep_plan *plan = block->plan;
@@ -116,10 +118,10 @@ static batten_status measure(batten_context *context, const struct measuring *me
 	batten_measures measures;
 	batten_status status = measuring->place[i] == SIZE_MAX
 	                           ? measure_alone(context, measuring, &hull, i, &measures)
-	                           : measure_batched(context, measuring, &hull, i, &measures);
+	                           : measure_batched(room, measuring, &hull, i, &measures);
 	if (status == BATTEN_OK) {
 		memcpy(design->measures, &measures, sizeof measures);
-		status = measure_fairing(context, block, i);
+		status = measure_fairing(context, room, block, i);
 	}
 	if (status == BATTEN_MEMORY || status == BATTEN_INTERNAL)
 		return status;
@@ -135,10 +137,12 @@ static batten_status measure(batten_context *context, const struct measuring *me
 static batten_status measure_piece(batten_context *context, void *user, size_t first, size_t count)
 {
 	const struct measuring *measuring = user;
-	batten_status status = BATTEN_OK;
+	measure_room *room = NULL;
+	batten_status status = measure_room_create(context, &room);
 	for (size_t i = first; i < first + count && status == BATTEN_OK; i++)
 		if (sweep_design_lives(&measuring->block->designs[i]))
-			status = measure(context, measuring, i);
+			status = measure(context, room, measuring, i);
+	measure_room_destroy(room);
 	return status;
 }
 

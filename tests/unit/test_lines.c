@@ -332,6 +332,60 @@ static void lines_break_at_knuckles(void **state)
 	batten_context_destroy(context);
 }
 
+/* Line after line, each collected by itself. */
+static lines_sum one_by_one(const batten_hull *hull, bool waterlines)
+{
+	lines_sum total = { 0 };
+	const size_t count = waterlines ? hull->waterline_count : hull->station_count;
+	for (size_t line = 0; line < count; line++) {
+		hull_line points;
+		assert_int_equal(hull_line_collect(hull, waterlines, line, false, &points), BATTEN_OK);
+		const lines_sum sum = lines_of_points(hull, waterlines, line, &points);
+		hull_line_release(hull, &points);
+		total.fn_per_m2 += sum.fn_per_m2;
+		total.interior_count += sum.interior_count;
+		total.inflections += sum.inflections;
+	}
+	return total;
+}
+
+/* Lines side by side give the bits of each by itself: whole, broken by empty cells, across '?' cells. */
+static void lines_side_by_side(void **state)
+{
+	(void)state;
+	enum { COLUMNS = 21, ROWS = 11, NODES = COLUMNS * ROWS };
+	static double y[NODES], x[COLUMNS], z[ROWS];
+	static uint8_t nodes[NODES];
+	for (size_t i = 0; i < COLUMNS; i++)
+		x[i] = (double)i + 0.3 * (double)(i % 3);
+	for (size_t j = 0; j < ROWS; j++)
+		z[j] = 0.2 * (double)j + 0.05 * (double)(j % 2);
+	batten_context *context = make_context();
+	for (unsigned holes = 0; holes < 5; holes++) {
+		for (unsigned n = 0; n < NODES; n++) {
+			const unsigned drawn = (n * 2654435761u >> 7) % 32;
+			nodes[n] = drawn < holes       ? BATTEN_NODE_OUTSIDE
+			           : drawn < 2 * holes ? BATTEN_NODE_UNKNOWN
+			                               : BATTEN_NODE_GIVEN;
+			y[n] = nodes[n] == BATTEN_NODE_GIVEN ? 1 + 0.01 * drawn + 0.1 * x[n % COLUMNS] : 0;
+		}
+		batten_hull_table table = { "holes", 20, 2, COLUMNS, ROWS, x, z, y, nodes };
+		batten_hull *hull = NULL;
+		assert_int_equal(batten_hull_create(context, &table, &hull), BATTEN_OK);
+		for (int waterlines = 0; waterlines < 2; waterlines++) {
+			lines_sum sum;
+			const lines_sum expected = one_by_one(hull, waterlines);
+			assert_int_equal(lines_of_hull(hull, waterlines, &sum), BATTEN_OK);
+			assert_true(sum.interior_count > 0 && sum.inflections > 0);
+			assert_true(sum.fn_per_m2 == expected.fn_per_m2);
+			assert_int_equal(sum.interior_count, expected.interior_count);
+			assert_int_equal(sum.inflections, expected.inflections);
+		}
+		batten_hull_destroy(hull);
+	}
+	batten_context_destroy(context);
+}
+
 static double fairness_of_shipped(const char *name)
 {
 	batten_context *context = make_context();
@@ -367,6 +421,7 @@ int main(void)
 		cmocka_unit_test(lines_of_a_plane_hull_are_straight),
 		cmocka_unit_test(changes_are_against_the_reference),
 		cmocka_unit_test(lines_break_at_knuckles),
+		cmocka_unit_test(lines_side_by_side),
 		cmocka_unit_test(fairness_of_the_shipped_hulls),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

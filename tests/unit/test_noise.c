@@ -1,5 +1,6 @@
 /* The noise of offsets: nothing on smooth forms, what was put in on noisy ones. */
 #include "batten.h"
+#include "core/median.h"
 #include "fairing/noise.h"
 
 #include <math.h>
@@ -272,6 +273,56 @@ static void no_difference_across_a_knuckle(void **state)
 	batten_context_destroy(context);
 }
 
+/* A grid's lines side by side give the bits of lines collected one by one, which those of the long layout
+ * are. */
+static void lines_side_by_side(void **state)
+{
+	(void)state;
+	batten_context *context = make_context();
+	static const size_t sizes[][2] = { { 21, 20 }, { 13, 9 }, { 6, 24 }, { 5, 5 } };
+	for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+		batten_hull *hull = make_hull(context, parabolic, sizes[k][0], sizes[k][1], 0.01, 7 + k);
+		const double grid = noise_of(context, hull);
+		hull->layout = HULL_LAYOUT_LONG_WATERLINES;
+		const double lines = noise_of(context, hull);
+		hull->layout = HULL_LAYOUT_GRID;
+		assert_true(grid == lines && (grid > 0) == (sizes[k][0] > 5));
+		batten_hull_destroy(hull);
+	}
+	batten_context_destroy(context);
+}
+
+static int ascending(const void *a, const void *b)
+{
+	const double *x = a, *y = b;
+	return (*x > *y) - (*x < *y);
+}
+
+static void medians(void **state)
+{
+	(void)state;
+	uint64_t seed = 3;
+	double list[60], sorted[60], room[120];
+	for (size_t count = 1; count <= 50; count++)
+		for (int kinds = 1; kinds <= 1000; kinds *= 10) {
+			const size_t total = count + count % 7;
+			for (size_t i = 0; i < total; i++)
+				list[i] = i < count ? floor(kinds * uniform(&seed)) : INFINITY;
+			/* What does not count may stand anywhere. */
+			const double last = list[total - 1];
+			list[total - 1] = list[0];
+			list[0] = last;
+			memcpy(sorted, list, total * sizeof *list);
+			qsort(sorted, total, sizeof *sorted, ascending);
+			const double expected = 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
+			assert_true(median_of_least(list, total, count, room) == expected);
+			size_t below = 0;
+			while (below < total && sorted[below] < expected)
+				below++;
+			assert_int_equal(median_count_below(list, total, expected), below);
+		}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -283,6 +334,8 @@ int main(void)
 		cmocka_unit_test(the_smoother_direction_wins),
 		cmocka_unit_test(scale_and_pieces),
 		cmocka_unit_test(no_difference_across_a_knuckle),
+		cmocka_unit_test(lines_side_by_side),
+		cmocka_unit_test(medians),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
