@@ -4,6 +4,7 @@
 #include "batch/search_result.h"
 
 #include <math.h>
+#include <string.h>
 
 #define BATTEN_DIALECT_C
 #define BATTEN_DOUBLE 1
@@ -48,9 +49,26 @@ void block_pack_stencils(const search_plan *plan, void *stencils)
 enum { TILE = 64 };
 typedef double block_tile[BLOCK_INPUT_COUNT][TILE];
 
-static bool on_hull(const batten_search_problem *problem, size_t node)
+/* Whether nodes i to i + count of waterline k and their eight neighbours are all on the hull, as 1 or 0: only
+ * there has the energy a term. */
+static void mark_terms(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                       size_t k, size_t count, uint8_t *has)
 {
-	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
+	const size_t row = plan->station_count;
+	memset(has, 0, count);
+	if (k == 0 || k + 1 == plan->waterline_count)
+		return;
+	const size_t first = i == 0 ? 1 : i;
+	const size_t end = i + count == row ? row - 1 : i + count;
+	for (size_t c = first; c < end; c++) {
+		bool all = true;
+		for (size_t b = k - 1; problem->nodes && b <= k + 1; b++) {
+			const uint8_t *node = problem->nodes + b * row + c;
+			all = all & (node[-1] != BATTEN_NODE_OUTSIDE) & (node[0] != BATTEN_NODE_OUTSIDE) &
+			      (node[1] != BATTEN_NODE_OUTSIDE);
+		}
+		has[c - i] = all;
+	}
 }
 
 /* Those of nodes i to i + count of waterline k; nodes outside the hull are all 0. */
@@ -58,21 +76,27 @@ static void fill_tile(const search_plan *plan, const batten_search_problem *prob
                       size_t k, size_t count, block_tile tile)
 {
 	const double h2 = problem->half_beam_m * problem->half_beam_m;
+	const size_t at = k * plan->station_count + i;
+	const double *lower = problem->lower_m + at;
+	const double *upper = problem->upper_m + at;
+	const double *start = problem->start_m + at;
+	uint8_t has[TILE];
+	mark_terms(plan, problem, i, k, count, has);
 	for (size_t j = 0; j < count; j++) {
-		const size_t node = k * plan->station_count + i + j;
 		const double cell = plan->cell_x[i + j] * plan->cell_z[k];
-		const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
-		tile[BLOCK_INPUT_LOWER][j] = problem->lower_m[node];
-		tile[BLOCK_INPUT_UPPER][j] = problem->upper_m[node];
-		tile[BLOCK_INPUT_START][j] = search_start_of(problem, node);
-		tile[BLOCK_INPUT_TARGET][j] = problem->target_m[node];
-		tile[BLOCK_INPUT_BEND][j] = search_has_term(plan, problem, i + j, k) ? problem->w1 * cell
-		                                                                     : 0.0;
+		const double weight = problem->closeness_weight ? problem->closeness_weight[at + j] : 1.0;
+		const double least = start[j] < lower[j] ? lower[j] : start[j];
+		tile[BLOCK_INPUT_LOWER][j] = lower[j];
+		tile[BLOCK_INPUT_UPPER][j] = upper[j];
+		tile[BLOCK_INPUT_START][j] = least > upper[j] ? upper[j] : least;
+		tile[BLOCK_INPUT_TARGET][j] = problem->target_m[at + j];
+		tile[BLOCK_INPUT_BEND][j] = has[j] ? problem->w1 * cell : 0.0;
 		tile[BLOCK_INPUT_CLOSE][j] = problem->w2 * weight * cell / (h2 * h2);
-		if (!on_hull(problem, node))
+	}
+	for (size_t j = 0; problem->nodes && j < count; j++)
+		if (problem->nodes[at + j] == BATTEN_NODE_OUTSIDE)
 			for (size_t a = 0; a < BLOCK_INPUT_COUNT; a++)
 				tile[a][j] = 0.0;
-	}
 }
 
 /* Where node i of waterline k lies, the next node of the waterline `step` further on. */
@@ -125,9 +149,15 @@ static size_t count_terms(const search_plan *plan, const batten_search_problem *
 	if (!problem->nodes)
 		return (plan->station_count - 2) * (plan->waterline_count - 2);
 	size_t terms = 0;
+	uint8_t has[TILE];
 	for (size_t k = 0; k < plan->waterline_count; k++)
-		for (size_t i = 0; i < plan->station_count; i++)
-			terms += search_has_term(plan, problem, i, k);
+		for (size_t i = 0; i < plan->station_count; i += TILE) {
+			const size_t left = plan->station_count - i;
+			const size_t count = left < TILE ? left : TILE;
+			mark_terms(plan, problem, i, k, count, has);
+			for (size_t j = 0; j < count; j++)
+				terms += has[j];
+		}
 	return terms;
 }
 

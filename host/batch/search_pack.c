@@ -49,7 +49,8 @@ static bool on_hull(const batten_search_problem *problem, size_t node)
 	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
 }
 
-bool search_has_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
+/* Whether the node and its eight neighbours are all on the hull: only there has the energy a term. */
+static bool has_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
                      size_t k)
 {
 	const size_t stations = plan->station_count;
@@ -69,7 +70,8 @@ static double clamp(double value, double lower, double upper)
 	return value < lower ? lower : value > upper ? upper : value;
 }
 
-double search_start_of(const batten_search_problem *problem, size_t node)
+/* Where a search starts at a node: in its box. */
+static double start_of(const batten_search_problem *problem, size_t node)
 {
 	return clamp(problem->start_m[node], problem->lower_m[node], problem->upper_m[node]);
 }
@@ -86,12 +88,12 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 	const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
 	const double lower = problem->lower_m[node];
 	const double upper = problem->upper_m[node];
-	put(plan, arrays, SEARCH_ARRAY_Y * array + at, search_start_of(problem, node));
+	put(plan, arrays, SEARCH_ARRAY_Y * array + at, start_of(problem, node));
 	put(plan, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
 	put(plan, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
 	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
 	put(plan, arrays, SEARCH_ARRAY_CLOSE * array + at, problem->w2 * weight * cell / (h2 * h2));
-	if (search_has_term(plan, problem, i, k))
+	if (has_term(plan, problem, i, k))
 		put(plan, arrays, SEARCH_ARRAY_BEND * array + at, problem->w1 * cell);
 }
 
@@ -122,7 +124,7 @@ double search_end_of_node(const search_plan *plan, const batten_search_problem *
 		return problem->start_m[node];
 	const double lower = problem->lower_m[node];
 	const double upper = problem->upper_m[node];
-	const double start = search_start_of(problem, node);
+	const double start = start_of(problem, node);
 	if (plan->options.precision == BATTEN_F32 && found == (double)(float)start)
 		return start;
 	return clamp(found, lower, upper);

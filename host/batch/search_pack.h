@@ -12,13 +12,6 @@ size_t search_scalar_size(const search_plan *plan);
 size_t search_stencil_count(const search_plan *plan);
 void search_pack_stencils(const search_plan *plan, void *stencils);
 
-/* Whether the node and its eight neighbours are all on the hull: only there has the energy a term. */
-bool search_has_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
-                     size_t k);
-
-/* Where a search starts at a node: in its box. */
-double search_start_of(const batten_search_problem *problem, size_t node);
-
 /* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */
 double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,
                           size_t node, double found);

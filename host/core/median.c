@@ -3,6 +3,7 @@
 #include "core/runs.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 static double middle_of(double a, double b, double c)
 {
@@ -55,32 +56,34 @@ struct below {
 	size_t count;
 };
 
+/* Four runs at a time: none waits for the one before it. */
+enum { LOOK = 4 * RUN_LENGTH };
+
 INLINED void look_below(const double *list, size_t total, double limit, struct below *out)
 {
-	double most[RUN_LENGTH], count[RUN_LENGTH];
+	double most[LOOK], count[LOOK];
 	RUN_LOOP
-	for (size_t l = 0; l < RUN_LENGTH; l++) {
+	for (size_t l = 0; l < LOOK; l++) {
 		most[l] = -INFINITY;
 		count[l] = 0;
 	}
-	size_t i = 0;
-	for (; i + RUN_LENGTH <= total; i += RUN_LENGTH)
+	for (size_t i = 0; i + LOOK <= total; i += LOOK) {
 		RUN_LOOP
-	for (size_t l = 0; l < RUN_LENGTH; l++) {
-		const double value = list[i + l] < limit ? list[i + l] : -INFINITY;
-		most[l] = value > most[l] ? value : most[l];
-		count[l] += list[i + l] < limit ? 1.0 : 0.0;
+		for (size_t l = 0; l < LOOK; l++) {
+			const double value = list[i + l] < limit ? list[i + l] : -INFINITY;
+			most[l] = value > most[l] ? value : most[l];
+			count[l] += list[i + l] < limit ? 1.0 : 0.0;
+		}
 	}
-	for (size_t l = 0; i < total; i++) {
-		const double value = list[i] < limit ? list[i] : -INFINITY;
-		most[l] = value > most[l] ? value : most[l];
-		count[l] += list[i] < limit ? 1.0 : 0.0;
-	}
-	*out = (struct below){ most[0], 0 };
-	RUN_LOOP
-	for (size_t l = 0; l < RUN_LENGTH; l++) {
+	*out = (struct below){ -INFINITY, 0 };
+	for (size_t l = 0; l < LOOK; l++) {
 		out->most = most[l] > out->most ? most[l] : out->most;
 		out->count += (size_t)count[l];
+	}
+	for (size_t i = total / LOOK * LOOK; i < total; i++) {
+		const bool below = list[i] < limit;
+		out->most = below && list[i] > out->most ? list[i] : out->most;
+		out->count += below;
 	}
 }
 
@@ -96,11 +99,4 @@ double median_of_least(const double *list, size_t total, size_t count, double *r
 	struct below below;
 	find_below(list, total, upper, &below);
 	return 0.5 * (upper + (below.count == count / 2 ? below.most : upper));
-}
-
-size_t median_count_below(const double *list, size_t total, double limit)
-{
-	struct below below;
-	find_below(list, total, limit, &below);
-	return below.count;
 }

@@ -8,7 +8,4 @@
  * room: 2 total values. */
 double median_of_least(const double *list, size_t total, size_t count, double *room);
 
-/* How many values are less than limit. */
-size_t median_count_below(const double *list, size_t total, double limit);
-
 #endif

@@ -286,20 +286,25 @@ void spline_derivatives(const struct spline *spline, double x, double out[SPLINE
 	out[3] = 6 * piece.d;
 }
 
-double spline_integral(const struct spline *spline, double a, double b, int x_power, int power)
+void spline_rule_of(struct spline_rule *out)
 {
-	enum { POINTS = 5 };
-	double nodes[POINTS];
-	double weights[POINTS];
+	gauss_points(SPLINE_RULE_POINTS, out->nodes, out->weights);
+}
+
+double spline_integral_by(const struct spline_rule *rule, const struct spline *spline, double a,
+                          double b, int x_power, int power)
+{
 	double sum = 0;
-	gauss_points(POINTS, nodes, weights);
 	for (size_t i = 0; i + 1 < spline->count; i++) {
 		const double first = fmax(fmin(a, b), spline->x[i]);
 		const double last = fmin(fmax(a, b), spline->x[i + 1]);
-		for (size_t n = 0; n < POINTS && last > first; n++) {
-			const double x = 0.5 * (first + last) + 0.5 * (last - first) * nodes[n];
-			const double value = spline_value(spline, x);
-			double product = 0.5 * (last - first) * weights[n];
+		if (!(last > first))
+			continue;
+		const struct piece piece = piece_of(spline, i);
+		for (size_t n = 0; n < SPLINE_RULE_POINTS; n++) {
+			const double x = 0.5 * (first + last) + 0.5 * (last - first) * rule->nodes[n];
+			const double value = piece_value(&piece, x);
+			double product = 0.5 * (last - first) * rule->weights[n];
 			for (int p = 0; p < x_power; p++)
 				product *= x;
 			for (int p = 0; p < power; p++)
@@ -308,4 +313,11 @@ double spline_integral(const struct spline *spline, double a, double b, int x_po
 		}
 	}
 	return a <= b ? sum : -sum;
+}
+
+double spline_integral(const struct spline *spline, double a, double b, int x_power, int power)
+{
+	struct spline_rule rule;
+	spline_rule_of(&rule);
+	return spline_integral_by(&rule, spline, a, b, x_power, power);
 }

@@ -60,4 +60,13 @@ void spline_derivatives(const struct spline *spline, double x, double out[SPLINE
  * x_power + 3 power <= 9. */
 double spline_integral(const struct spline *spline, double a, double b, int x_power, int power);
 
+/* The same for many integrals, whose Gauss points are found once. */
+enum { SPLINE_RULE_POINTS = 5 };
+struct spline_rule {
+	double nodes[SPLINE_RULE_POINTS], weights[SPLINE_RULE_POINTS];
+};
+void spline_rule_of(struct spline_rule *out);
+double spline_integral_by(const struct spline_rule *rule, const struct spline *spline, double a,
+                          double b, int x_power, int power);
+
 #endif

@@ -158,12 +158,16 @@ INLINED void count_runs(const struct direction *d)
 
 RUNS_FUNCTION(take_runs, count_runs, (const struct direction *d), (d))
 
-/* The magnitudes of all differences of an order that begin at a place, infinite where there is none;
- * returns how many there are. */
-INLINED double take_place(const struct direction *d, const double *weights, size_t order,
-                          size_t first, double *magnitude)
+/* How many differences an order has, and how many of them are less than a limit. */
+struct found {
+	double all, below;
+};
+
+/* The magnitudes of all differences of an order that begin at a place, infinite where there is none. */
+INLINED void take_place(const struct direction *d, const double *weights, size_t order,
+                        size_t first, double limit, double *magnitude, struct found *found)
 {
-	double found[RUN_LENGTH] = { 0 };
+	double all[RUN_LENGTH] = { 0 }, below[RUN_LENGTH] = { 0 };
 	for (size_t line = 0; line < d->stride; line += RUN_LENGTH) {
 		const double *value = d->value_m + first * d->stride + line;
 		const double *run = d->run + (first + order) * d->stride + line;
@@ -177,69 +181,77 @@ INLINED double take_place(const struct direction *d, const double *weights, size
 		for (size_t l = 0; l < RUN_LENGTH; l++) {
 			const double there = run[l] > (double)order ? 1.0 : 0.0;
 			const double finite = sum[l] - sum[l] == 0.0 ? there : 0.0;
-			magnitude[line + l] = finite > 0 ? fabs(sum[l]) : INFINITY;
-			found[l] += finite;
+			const double size = finite > 0 ? fabs(sum[l]) : INFINITY;
+			magnitude[line + l] = size;
+			all[l] += finite;
+			below[l] += size < limit ? 1.0 : 0.0;
 		}
 	}
-	double all = 0;
-	RUN_LOOP
-	for (size_t l = 0; l < RUN_LENGTH; l++)
-		all += found[l];
-	return all;
+	for (size_t l = 0; l < RUN_LENGTH; l++) {
+		found->all += all[l];
+		found->below += below[l];
+	}
 }
 
-INLINED void take_places(const struct direction *d, size_t order, double *magnitude, double *found)
+INLINED void take_places(const struct direction *d, size_t order, double limit, double *magnitude,
+                         struct found *found)
 {
 	const double *weights = weights_of(d, order);
-	*found = 0;
+	struct found here = { 0, 0 };
 	for (size_t first = 0; first + order < d->count; first++)
-		*found += take_place(d, weights + first * (order + 1), order, first,
-		                     magnitude + first * d->stride);
+		take_place(d, weights + first * (order + 1), order, first, limit,
+		           magnitude + first * d->stride, &here);
+	*found = here;
 }
 
 /* An order the compiler knows is a sum without a loop. */
-INLINED void take_order(const struct direction *d, size_t order, double *magnitude, double *found)
+INLINED void take_order(const struct direction *d, size_t order, double limit, double *magnitude,
+                        struct found *found)
 {
 	_Static_assert(NOISE_LEAST_ORDER == 4 && NOISE_MOST_ORDER == 8, "the orders below");
 	switch (order) {
 	case 4:
-		take_places(d, 4, magnitude, found);
+		take_places(d, 4, limit, magnitude, found);
 		break;
 	case 5:
-		take_places(d, 5, magnitude, found);
+		take_places(d, 5, limit, magnitude, found);
 		break;
 	case 6:
-		take_places(d, 6, magnitude, found);
+		take_places(d, 6, limit, magnitude, found);
 		break;
 	case 7:
-		take_places(d, 7, magnitude, found);
+		take_places(d, 7, limit, magnitude, found);
 		break;
 	default:
-		take_places(d, 8, magnitude, found);
+		take_places(d, 8, limit, magnitude, found);
 	}
 }
 
 RUNS_FUNCTION(take_differences, take_order,
-              (const struct direction *d, size_t order, double *magnitude, double *found),
-              (d, order, magnitude, found))
+              (const struct direction *d, size_t order, double limit, double *magnitude,
+               struct found *found),
+              (d, order, limit, magnitude, found))
 
-/* The least scale over the orders, from the highest down, which is least where the form is smooth: of the
- * others a count often tells that their median is not less. */
+/* The least scale over the orders. On faired hulls it is most often that of order 5, then 4; of the others a
+ * count then tells that their median is not less. */
 static double least_scale(const grid_noise *noise, const struct direction *d)
 {
+	static const size_t orders[] = { 5, 4, 6, 7, 8 };
+	_Static_assert(sizeof orders / sizeof orders[0] == NOISE_MOST_ORDER - NOISE_LEAST_ORDER + 1,
+	               "every order");
 	double least = INFINITY;
 	take_runs(d);
-	for (size_t order = NOISE_MOST_ORDER; order >= NOISE_LEAST_ORDER; order--) {
+	for (size_t o = 0; o < sizeof orders / sizeof orders[0]; o++) {
+		const size_t order = orders[o];
+		struct found found;
 		if (d->count <= order)
 			continue;
-		const size_t total = (d->count - order) * d->stride;
-		double found = 0;
-		take_differences(d, order, noise->magnitude, &found);
-		const size_t count = (size_t)found;
-		if (count < NOISE_LEAST_SAMPLES ||
-		    median_count_below(noise->magnitude, total, least) < (count + 1) / 2)
+		take_differences(d, order, least, noise->magnitude, &found);
+		const size_t count = (size_t)found.all;
+		if (count < NOISE_LEAST_SAMPLES || (size_t)found.below < (count + 1) / 2)
 			continue;
-		least = fmin(least, median_of_least(noise->magnitude, total, count, noise->room));
+		least = fmin(least, median_of_least(noise->magnitude, (d->count - order) * d->stride, count,
+		                                    noise->room));
 	}
 	return least / NOISE_NORMAL_MEDIAN;
 }

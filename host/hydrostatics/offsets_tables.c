@@ -121,9 +121,9 @@ static void fill_rule(double part, double *rule)
 
 /* What one half-breadth adds to area, moment (both sides) and half-breadth of a section below each
  * draft: those of the spline that is 1 there and 0 at the other points from waterline `first` on. */
-static batten_status fill_cardinal(const batten_hull *hull, size_t first, size_t point,
-                                   size_t draft_count, const double *drafts, double *unit,
-                                   double *sections)
+static batten_status fill_cardinal(const batten_hull *hull, const struct spline_rule *rule,
+                                   size_t first, size_t point, size_t draft_count,
+                                   const double *drafts, double *unit, double *sections)
 {
 	const size_t lines = hull->waterline_count, count = lines - first;
 	struct spline spline = { 0 };
@@ -141,8 +141,8 @@ static batten_status fill_cardinal(const batten_hull *hull, size_t first, size_t
 		weights[2 * lines] = count >= 2 ? spline_value(&spline, top) : 1;
 		if (count < 2 || !(top > low))
 			continue;
-		weights[0] = 2 * spline_integral(&spline, low, top, 0, 1);
-		weights[lines] = 2 * spline_integral(&spline, low, top, 1, 1);
+		weights[0] = 2 * spline_integral_by(rule, &spline, low, top, 0, 1);
+		weights[lines] = 2 * spline_integral_by(rule, &spline, low, top, 1, 1);
 	}
 	spline_destroy(&spline);
 	return BATTEN_OK;
@@ -189,10 +189,12 @@ batten_status offsets_tables_fill(const batten_hull *hull, const double *drafts_
 			fill_rule(drafts[4 * d + 2], rules + 35 * (d + 1));
 	}
 	batten_status status = BATTEN_OK;
+	struct spline_rule rule;
+	spline_rule_of(&rule);
 	for (size_t first = 0; first < lines && status == BATTEN_OK; first++) {
 		fill_bends(hull, first, variants_plan_table(plan, VARIANTS_AT_BENDS) + 4 * first * lines);
 		for (size_t point = first; point < lines && status == BATTEN_OK; point++)
-			status = fill_cardinal(hull, first, point, count, drafts, unit,
+			status = fill_cardinal(hull, &rule, first, point, count, drafts, unit,
 			                       variants_plan_table(plan, VARIANTS_AT_SECTIONS));
 	}
 	batten_release(hull->context, unit);
