@@ -1,4 +1,5 @@
-/* Passes of forward and inverse fairing (thesis 5.2, 5.3, 6) over many hulls of one topology.
+/* Passes of forward and inverse fairing (thesis 5.3, 6; 5.2 where lines are too uneven for stretches) over
+ * many hulls of one topology.
  *
  * A work-group takes BATTEN_LANES hulls at a time, one a lane of `real`, through all iterations of the
  * pass, and then the next: its room stays in the cache. Its work-items share the rows and lines of an
@@ -6,31 +7,12 @@
  * On a GPU: one lane, many work-items. Every row and line is worked in one fixed order by one
  * work-item, so the shape does not change a bit of the result.
  *
- * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, and NUMBER_DOUBLE: whether half-breadths come and
- * go as doubles or in the precision. */
+ * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, and NUMBER_DOUBLE of pass_numbers.h. */
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
+#include "shared/pass_numbers.h"
 #include "shared/pass_run.h"
 #include "shared/turn.h"
-
-#if !defined(NUMBER_DOUBLE)
-#define NUMBER_DOUBLE BATTEN_DOUBLE
-#endif
-#if NUMBER_DOUBLE
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-#define NUMBER_NAME double
-#else
-#define NUMBER_NAME float
-#endif
-typedef NUMBER_NAME number;
-#if BATTEN_LANES == 1
-#define LOAD(from) ((real)(*(from)))
-#define STORE(a, to) (*(to) = (number)(a))
-#else
-#define AS(name, lanes) BATTEN_PASTE(convert_, BATTEN_PASTE(name, lanes))
-#define LOAD(from) AS(BATTEN_REAL_NAME, BATTEN_LANES)(BATTEN_PASTE(vload, BATTEN_LANES)(0, from))
-#define STORE(a, to) BATTEN_PASTE(vstore, BATTEN_LANES)(AS(NUMBER_NAME, BATTEN_LANES)(a), 0, to)
-#endif
 
 /* The values of the lanes' hulls, each beside its next: hull l begins at from + l * values. Lanes
  * beyond the last hull work that one again. */

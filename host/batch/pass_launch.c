@@ -34,6 +34,8 @@ typedef struct block {
 	size_t first, count; /* hulls */
 	size_t groups;       /* of work-items, each taking lanes' hulls again and again */
 	size_t state_size, bytes;
+	size_t side_by_side; /* states of hulls that a work-group has */
+	bool stretches;
 	bool doubles;
 	bool direct; /* the device works in the caller's memory */
 	float *short_numbers;
@@ -55,8 +57,11 @@ static batten_status block_create(block *b)
 	const batten_device *device = batch_engine_device(b->engine);
 	const size_t rounds = device->is_cpu ? GROUPS_OF_UNIT_CPU : GROUPS_OF_UNIT;
 	b->state_size = pass_plan_state(b->plan, recipe->work_group);
-	const size_t room = b->state_size * recipe->lanes * batch_engine_number_size(recipe->precision);
-	const size_t wanted = (b->count + recipe->lanes - 1) / recipe->lanes;
+	b->stretches = b->plan->program->shape[PASS_SHAPE_STRETCHES];
+	b->side_by_side = b->stretches ? PASS_STRETCH_HULLS : recipe->lanes;
+	const size_t room = b->state_size * b->side_by_side *
+	                    batch_engine_number_size(recipe->precision);
+	const size_t wanted = (b->count + b->side_by_side - 1) / b->side_by_side;
 	const size_t most[] = { device->compute_units * rounds,
 		                    batch_engine_launch_bytes(b->engine, SIZE_MAX) / room };
 	b->groups = wanted;
@@ -76,6 +81,12 @@ static batten_status block_create(block *b)
 	for (size_t n = 0; n < numbers; n++)
 		b->short_numbers[n] = (float)b->plan->y_m[b->first * pass_plan_values(b->plan) + n];
 	return BATTEN_OK;
+}
+
+/* Lines are fitted; stretches have none. */
+static bool is_of_lines(const block *b, int which)
+{
+	return b->stretches && which >= LINE_FIRST && which <= POINT_ALONG;
 }
 
 /* An OpenCL buffer cannot be empty: lists that may be have room for one more. */
@@ -104,7 +115,7 @@ static batten_status block_upload(block *b)
 		{ POINT_ALONG, (program->point_count + 1) * number, b->tables.point_along },
 		{ CONSTANTS, ((size_t)program->shape[PASS_SHAPE_CONSTANTS] + 1) * number,
 		  b->tables.constants },
-		{ ROOM, b->groups * b->state_size * b->engine->recipe.lanes * number, NULL },
+		{ ROOM, b->groups * b->state_size * b->side_by_side * number, NULL },
 		{ FROM, b->direct ? 0 : b->bytes, from },
 		{ TO, b->direct ? 0 : b->bytes, NULL },
 		{ REFUSED, b->count * sizeof *b->plan->refused, b->plan->refused + b->first },
@@ -112,7 +123,7 @@ static batten_status block_upload(block *b)
 	device_session *session = b->engine->session;
 	batten_status status = BATTEN_OK;
 	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
+		if (uploads[i].size > 0 && !is_of_lines(b, uploads[i].which))
 			status = device_buffer_create(session, uploads[i].size, uploads[i].from,
 			                              &b->buffers[uploads[i].which]);
 	/* Wrapped memory is read only, whatever its type says. */
@@ -130,10 +141,12 @@ static batten_status block_launch(const block *b)
 	device_argument arguments[PLAIN + BUFFER_COUNT] = { { 0 } };
 	for (size_t i = 0; i < PLAIN; i++)
 		arguments[i] = (device_argument){ .size = sizeof plain[i], .value = &plain[i] };
-	for (size_t i = 0; i < BUFFER_COUNT; i++)
-		arguments[PLAIN + i] = (device_argument){ .buffer = b->buffers[i] };
-	return device_launch(b->engine->session, b->engine->kernel, arguments, PLAIN + BUFFER_COUNT,
-	                     b->groups, b->engine->recipe.work_group);
+	size_t count = PLAIN;
+	for (int i = 0; i < BUFFER_COUNT; i++)
+		if (!is_of_lines(b, i))
+			arguments[count++] = (device_argument){ .buffer = b->buffers[i] };
+	return device_launch(b->engine->session, b->engine->kernel, arguments, count, b->groups,
+	                     b->engine->recipe.work_group);
 }
 
 static batten_status block_read(const block *b)

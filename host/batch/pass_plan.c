@@ -26,7 +26,10 @@ size_t pass_plan_state(const pass_plan *plan, size_t work_items)
 	const int32_t *shape = plan->program->shape;
 	const int32_t room = PASS_FIT_ROOM(shape[PASS_SHAPE_FIT_ORDER], shape[PASS_SHAPE_VERTICES],
 	                                   shape[PASS_SHAPE_FIT_POINTS]);
-	return (size_t)shape[PASS_SHAPE_STATE] + work_items * (size_t)room;
+	const size_t state = (size_t)shape[PASS_SHAPE_STATE];
+	if (shape[PASS_SHAPE_STRETCHES]) /* every state begins where a vector of any width may */
+		return (state + 3 * (size_t)PASS_STRETCH - 1) / PASS_STRETCH * PASS_STRETCH;
+	return state + work_items * (size_t)room;
 }
 
 /* A copy in the precision of the plan, with room for one number at least. */

@@ -33,7 +33,7 @@ batten_status pass_plan_check(const pass_plan *plan);
 
 size_t pass_plan_values(const pass_plan *plan);
 
-/* Reals of a hull's state where work_items share it. */
+/* Reals of a hull's state where work_items share it, those beside it included. */
 size_t pass_plan_state(const pass_plan *plan, size_t work_items);
 
 /* Terms of rows, x of points and constants in the precision of the plan; released by

@@ -48,8 +48,9 @@ void pass_reference_run(pass_reference *reference, size_t which)
 	const size_t constants = (size_t)program->shape[PASS_SHAPE_CONSTANTS];
 	const double *y = plan->y_m + which * values;
 	double *out = plan->out_m + which * values;
+	const size_t begin = program->shape[PASS_SHAPE_STRETCHES] ? PASS_STRETCH : 0;
 	if (plan->precision == BATTEN_F64) {
-		double *state = reference->state;
+		double *state = (double *)reference->state + begin;
 		memcpy(state, y, values * sizeof *state);
 		memcpy(state + values, tables->constants, constants * sizeof *state);
 		plan->refused[which] = !reference_fairing_pass_f64(&shared, tables->term_factor,
@@ -57,7 +58,7 @@ void pass_reference_run(pass_reference *reference, size_t which)
 		memcpy(out, state, values * sizeof *state);
 		return;
 	}
-	float *state = reference->state;
+	float *state = (float *)reference->state + begin;
 	for (size_t n = 0; n < values; n++)
 		state[n] = (float)y[n];
 	memcpy(state + values, tables->constants, constants * sizeof *state);

@@ -4,7 +4,7 @@
 
 #include "batch/pass_engine.h"
 
-/* Fills the engine's test. Errors: DEVICE, MEMORY. */
-batten_status pass_selftest_run(batch_engine *engine);
+/* Fills the engine's test, with a pass of stretches or one without. Errors: DEVICE, MEMORY. */
+batten_status pass_selftest_run(batch_engine *engine, bool stretches);
 
 #endif

@@ -85,12 +85,27 @@ static batten_status test_nets(batten_context *context, size_t index, const batt
 	return net_engine_open(&plan, index, device, &engine, result);
 }
 
+static batten_status test_pass(batten_context *context, size_t index, const batten_device *device,
+                               batten_precision precision, bool stretches, batten_selftest *result)
+{
+	pass_program_numbers program = { .row_count = 0 };
+	program.shape[PASS_SHAPE_STRETCHES] = stretches;
+	const pass_plan plan = { .context = context, .program = &program, .precision = precision };
+	batch_engine *engine = NULL;
+	return pass_engine_open(&plan, index, device, &engine, result);
+}
+
 static batten_status test_passes(batten_context *context, size_t index, const batten_device *device,
                                  batten_precision precision, batten_selftest *result)
 {
-	const pass_plan plan = { .context = context, .precision = precision };
-	batch_engine *engine = NULL;
-	return pass_engine_open(&plan, index, device, &engine, result);
+	return test_pass(context, index, device, precision, false, result);
+}
+
+static batten_status test_stretches(batten_context *context, size_t index,
+                                    const batten_device *device, batten_precision precision,
+                                    batten_selftest *result)
+{
+	return test_pass(context, index, device, precision, true, result);
 }
 
 /* Of one precision only. */
@@ -110,11 +125,11 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	if (status != BATTEN_OK)
 		return status;
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
-	static batten_status (*const tests[])(batten_context *, size_t, const batten_device *,
-	                                      batten_precision, batten_selftest *) = {
-		test_search, test_textbook, test_block, test_surfaces, test_nets, test_passes
-	};
-	enum { PRECISIONS = 2, TESTS = 6 };
+	static batten_status (*const tests[])(
+		batten_context *, size_t, const batten_device *, batten_precision,
+		batten_selftest *) = { test_search, test_textbook, test_block,    test_surfaces,
+		                       test_nets,   test_passes,   test_stretches };
+	enum { PRECISIONS = 2, TESTS = 7 };
 	*count = (size_t)PRECISIONS * TESTS + 1;
 	for (size_t t = 0; t + 1 < *count && t < capacity; t++) {
 		const batten_status opened = tests[t / PRECISIONS](context, index, &device,

@@ -2,6 +2,8 @@
  * one from there back into the values. */
 #include "fairing/pass_forward.h"
 
+#include "fairing/pass_stretches.h"
+
 /* Where each value is after the first direction. */
 typedef struct stage {
 	pass_writer *writer;
@@ -10,9 +12,9 @@ typedef struct stage {
 	uint8_t *written; /* the second direction puts it back */
 } stage;
 
-static bool stage_create(pass_writer *writer, size_t values, stage *s)
+static bool stage_create(pass_writer *writer, size_t values, size_t room, stage *s)
 {
-	*s = (stage){ .writer = writer, .values = values, .room = pass_room(writer, values) };
+	*s = (stage){ .writer = writer, .values = values, .room = room };
 	s->moved = batten_allocate(writer->context, values, sizeof *s->moved);
 	s->written = batten_allocate(writer->context, values, sizeof *s->written);
 	if (!s->moved || !s->written)
@@ -134,7 +136,7 @@ void pass_write_approximation(pass_writer *writer, pass_task *task)
 {
 	stage s;
 	uint8_t *first = NULL;
-	if (stage_create(writer, task->values, &s)) {
+	if (stage_create(writer, task->values, pass_stretches_room(writer, task->values), &s)) {
 		first = mark_first(writer, task->waterlines, &task->along, task);
 		mark(task->sections, pass_least_points(&task->across), s.written, task);
 	}
@@ -143,6 +145,7 @@ void pass_write_approximation(pass_writer *writer, pass_task *task)
 		pass_operation(writer, PASS_ROWS);
 		write_rows(&s, task->sections, &task->across, false);
 		write_back(&s);
+		pass_stretches_make(writer, task->values, s.room);
 	}
 	batten_release(writer->context, first);
 	stage_release(&s);
@@ -154,7 +157,7 @@ void pass_write_fit(pass_writer *writer, pass_task *task)
 	uint8_t *first = NULL;
 	writer->numbers.shape[PASS_SHAPE_FIT_ORDER] = (int32_t)task->along.order;
 	writer->numbers.shape[PASS_SHAPE_VERTICES] = (int32_t)task->along.vertices;
-	if (stage_create(writer, task->values, &s)) {
+	if (stage_create(writer, task->values, pass_room(writer, task->values), &s)) {
 		first = mark_first(writer, task->sections, &task->across, task);
 		mark(task->waterlines, pass_least_points(&task->along), s.written, task);
 	}

@@ -128,6 +128,16 @@ void pass_operation(pass_writer *w, int kind)
 	next[PASS_COUNT] = 0;
 }
 
+void pass_writer_renew_rows(pass_writer *w)
+{
+	pass_program_numbers *n = &w->numbers;
+	close_operation(w);
+	n->row_first = n->row_target = n->term_index = NULL;
+	n->term_factor = NULL;
+	n->row_count = n->term_count = 0;
+	w->operation_count = 0;
+}
+
 void pass_floor(pass_writer *w, size_t first, size_t count)
 {
 	pass_operation(w, PASS_FLOOR);

@@ -39,6 +39,10 @@ void pass_line(pass_writer *writer);
 /* Takes back all rows, and room beyond the first `base` places. */
 void pass_writer_clear(pass_writer *writer, size_t base);
 
+/* Ends the last operation and lets go of all of them and of their rows, which the caller takes over; what
+ * is written from now on takes their place. */
+void pass_writer_renew_rows(pass_writer *writer);
+
 /* Ends the last operation; the program is whole. */
 batten_status pass_writer_end(pass_writer *writer);
 

@@ -50,6 +50,7 @@ typedef int mask;
 #define WORK_ITEMS 1
 #define WAIT ((void)0)
 #define ROLLED
+#define UNROLLED
 
 #else
 
@@ -92,6 +93,18 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #define SPREAD(a) ((real)(a))
 #endif
 #define SHARED_FUNCTION static inline
+/* A number of global memory that is about to be read or written comes near: PoCL's prefetch() does
+ * nothing. */
+#define FETCH(from) prefetch(from, 1)
+#define FETCH_TO_WRITE(to) ((void)(to))
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_prefetch)
+#undef FETCH
+#undef FETCH_TO_WRITE
+#define FETCH(from) __builtin_prefetch((const void *)(size_t)(from), 0, 2)
+#define FETCH_TO_WRITE(to) __builtin_prefetch((const void *)(size_t)(to), 1, 2)
+#endif
+#endif
 #define GLOBAL global
 #define LOCAL local
 #define WORK_ITEM ((int)get_local_id(0))
@@ -100,6 +113,10 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 /* Unrolled loops cost PoCL half a minute of compiling and gain nothing: the lanes are unrolled
  * already. */
 #define ROLLED _Pragma("unroll 1")
+/* Loops over a basis or over lanes are short, fixed and worth it; PoCL needs to be told both. */
+#if !defined(UNROLLED)
+#define UNROLLED _Pragma("unroll")
+#endif
 
 #endif
 

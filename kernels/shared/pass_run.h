@@ -1,22 +1,10 @@
-/* The course of a pass (pass_layout.h), the same source for the kernel and the C path. The includer
+/* The course of a pass (pass_layout.h) that is not of stretches, the same source for the kernel and the C path. The includer
  * has dialect.h. */
 #ifndef BATTEN_SHARED_PASS_RUN_H
 #define BATTEN_SHARED_PASS_RUN_H
 
 #include "shared/pass_fit.h"
-
-/* What the hulls of a batch share. */
-typedef struct pass_program {
-	GLOBAL const int *shape;      /* PASS_SHAPE_SIZE */
-	GLOBAL const int *operations; /* [operations][PASS_OPERATION_SIZE] */
-	GLOBAL const int *row_first;  /* [rows + 1]: its first term */
-	GLOBAL const int *row_target; /* [rows] */
-	GLOBAL const int *term_index; /* [terms] */
-	GLOBAL const scalar *term_factor;
-	GLOBAL const int *line_first; /* [lines + 1]: its first point */
-	GLOBAL const int *point_from, *point_to;
-	GLOBAL const scalar *point_along;
-} pass_program;
+#include "shared/pass_program.h"
 
 #define PASS_TERM(n) (SPREAD(p->term_factor[n]) * state[p->term_index[n]])
 

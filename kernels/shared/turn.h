@@ -3,12 +3,6 @@
 #ifndef BATTEN_SHARED_TURN_H
 #define BATTEN_SHARED_TURN_H
 
-/* Loops over a basis or over lanes are short, fixed and worth unrolling; the others are not (ROLLED).
- * PoCL needs to be told both. */
-#if !defined(UNROLLED)
-#define UNROLLED _Pragma("unroll")
-#endif
-
 /* The first halves of two vectors taken in turns, and the second halves. */
 #if defined(TURNS_LOW)
 #elif BATTEN_LANES == 2

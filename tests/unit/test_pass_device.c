@@ -154,6 +154,7 @@ static void test_launches_are_cut(void **state)
 	assert_memory_equal(b.found, b.known, HULLS * b.values * sizeof *b.y);
 	pass_program_numbers program = { 0 };
 	program.shape[PASS_SHAPE_VALUES] = (int32_t)b.values;
+	program.shape[PASS_SHAPE_STRETCHES] = 1;
 	const pass_plan plan = { .context = context, .program = &program, .precision = BATTEN_F64 };
 	batten_device device;
 	batch_engine *engine = NULL;
