@@ -48,8 +48,8 @@ static batten_status contest_create(const bench_settings *settings, batten_preci
 	                                                                 : "c_vectors_close_f32");
 	if (!open || !c->run || !c->close)
 		return BATTEN_OK;
-	c->values = calloc(NUMBERS, sizeof(double));
-	c->known = calloc(NUMBERS, sizeof(double));
+	c->values = bench_allocate_large(NUMBERS * sizeof(double));
+	c->known = bench_allocate_large(NUMBERS * sizeof(double));
 	if (!c->values || !c->known)
 		return BATTEN_MEMORY;
 	for (int i = 0; i < GRID_U; i++)

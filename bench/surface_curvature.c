@@ -14,9 +14,10 @@ enum { GAUSS = 12, GAUSS_COUNT = (ALONG - 3) * (UP - 3) * GAUSS * GAUSS };
 typedef struct workload {
 	bool energy;
 	size_t count, points; /* surfaces, points of each */
+	size_t bytes;         /* of the values: doubles; of the grids in f32 floats */
 	double u[GRID_U], v[GRID_V];
 	batten_surface **surfaces;
-	void *values, *known; /* doubles; of the grids in f32 floats */
+	void *values, *known;
 	batten_surface_energies *energies, *known_energies;
 } workload;
 
@@ -52,15 +53,17 @@ batten_status bench_surface_hull(batten_context *context, uint32_t number, batte
 	return batten_surface_create(context, &net, out);
 }
 
-static batten_status workload_create(const bench_settings *settings, bool energy, workload *w)
+static batten_status workload_create(const bench_settings *settings, bool energy,
+                                     batten_precision precision, workload *w)
 {
 	*w = (workload){ .energy = energy,
 		             .count = settings->full ? 256 : 64,
 		             .points = energy ? GAUSS_COUNT : GRID_U * GRID_V };
-	const size_t numbers = energy ? 1 : w->count * w->points * 2;
+	w->bytes = w->count * w->points * 2 *
+	           (precision == BATTEN_F64 ? sizeof(double) : sizeof(float));
 	w->surfaces = calloc(w->count, sizeof *w->surfaces);
-	w->values = calloc(numbers, sizeof(double));
-	w->known = calloc(numbers, sizeof(double));
+	w->values = bench_allocate_large(energy ? 1 : w->bytes);
+	w->known = bench_allocate_large(energy ? 1 : w->bytes);
 	w->energies = calloc(w->count, sizeof *w->energies);
 	w->known_energies = calloc(w->count, sizeof *w->known_energies);
 	if (!w->surfaces || !w->values || !w->known || !w->energies || !w->known_energies)
@@ -103,7 +106,7 @@ static bool same_results(const void *user)
 	const workload *w = user;
 	if (w->energy)
 		return memcmp(w->energies, w->known_energies, w->count * sizeof *w->energies) == 0;
-	return memcmp(w->values, w->known, w->count * w->points * 2 * sizeof(double)) == 0;
+	return memcmp(w->values, w->known, w->bytes) == 0;
 }
 
 static batten_status run_case(const bench_settings *settings, bool energy,
@@ -111,7 +114,7 @@ static batten_status run_case(const bench_settings *settings, bool energy,
 {
 	workload w;
 	bench_row row = { .precision = precision, .unit = "ns per point" };
-	batten_status status = workload_create(settings, energy, &w);
+	batten_status status = workload_create(settings, energy, precision, &w);
 	const double points = (double)(w.count * w.points);
 	const bench_contest contest = { .workload = &w,
 		                            .run = run_batch,

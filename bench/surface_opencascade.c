@@ -30,8 +30,8 @@ static void contest_release(contest *c)
 
 static batten_status contest_create(const bench_settings *settings, contest *c)
 {
-	c->values = calloc((size_t)COUNT * POINTS * 2, sizeof(double));
-	c->known = calloc((size_t)OF_PEER * POINTS * 2, sizeof *c->known);
+	c->values = bench_allocate_large((size_t)COUNT * POINTS * 2 * sizeof(double));
+	c->known = bench_allocate_large((size_t)OF_PEER * POINTS * 2 * sizeof *c->known);
 	if (!c->values || !c->known)
 		return BATTEN_MEMORY;
 	for (int i = 0; i < GRID_U; i++)

@@ -181,7 +181,7 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	batten_status status = device_launch(engine->session, engine->kernel, arguments,
 	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
 	if (status == BATTEN_OK)
-		status = b->direct ? device_buffer_settle(b->inputs_on)
+		status = b->direct ? device_buffers_settle(&b->inputs_on, 1)
 		                   : device_buffer_read(b->inputs_on, b->count * b->input_bytes, b->inputs);
 	if (status == BATTEN_OK)
 		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,

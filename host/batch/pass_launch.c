@@ -157,7 +157,7 @@ static batten_status block_read(const block *b)
 		return told;
 	const size_t begin = b->first * pass_plan_values(b->plan);
 	if (b->direct)
-		return device_buffer_settle(b->buffers[TO]);
+		return device_buffers_settle(&b->buffers[TO], 1);
 	if (b->doubles)
 		return device_buffer_read(b->buffers[TO], b->bytes, b->plan->out_m + begin);
 	const batten_status status = device_buffer_read(b->buffers[TO], b->bytes, b->short_numbers);

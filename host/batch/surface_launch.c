@@ -155,7 +155,7 @@ static batten_status block_upload(block *b)
 		{ &b->nets_on, b->groups * b->net_bytes, b->nets },
 		{ &b->least_areas_on, b->groups * b->lane_bytes, b->least_areas },
 		{ &b->sums_on, b->sums ? lines * b->sums_bytes : 0, NULL },
-		{ &b->missing_on, b->sums ? 0 : lines * b->missing_bytes, NULL },
+		{ &b->missing_on, b->sums || b->direct ? 0 : lines * b->missing_bytes, NULL },
 		{ &b->values_on, b->values ? lines * b->lanes * b->surface_bytes : 0, NULL },
 	};
 	batten_status status = BATTEN_OK;
@@ -163,6 +163,9 @@ static batten_status block_upload(block *b)
 		if (uploads[i].size > 0)
 			status = device_buffer_create(b->engine->session, uploads[i].size, uploads[i].from,
 			                              uploads[i].buffer);
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(b->engine->session, lines * b->missing_bytes, b->missing,
+		                            &b->missing_on);
 	return status;
 }
 
@@ -227,14 +230,13 @@ static batten_status part_launch(const block *b, const part *p)
 static batten_status part_read(const block *b, const part *p)
 {
 	const size_t lines = p->groups * p->lines;
-	batten_status status = BATTEN_OK;
+	device_buffer *const direct[] = { b->values_on, b->missing_on };
 	if (b->sums)
 		return device_buffer_read(b->sums_on, lines * b->sums_bytes, b->sums_of_lines);
 	if (b->direct)
-		status = device_buffer_settle(b->values_on);
-	else
-		status = device_buffer_read(b->values_on, part_surfaces(b, p) * p->lines * b->surface_bytes,
-		                            b->values);
+		return device_buffers_settle(direct, sizeof direct / sizeof direct[0]);
+	const batten_status status = device_buffer_read(
+		b->values_on, part_surfaces(b, p) * p->lines * b->surface_bytes, b->values);
 	return status == BATTEN_OK
 	           ? device_buffer_read(b->missing_on, lines * b->missing_bytes, b->missing)
 	           : status;

@@ -31,21 +31,33 @@ size_t surface_pack_net_count(const surface_plan *plan)
 	return plan->u.poles * plan->v.poles * surface_plan_dimension(plan);
 }
 
+/* The poles of a surface into lane `lane` of a net, along v first. */
+#define PACK(name, number)                                                                         \
+	static void name(const surface_plan *plan, const surface_item *item, size_t lanes, number *to) \
+	{                                                                                              \
+		for (size_t i = 0; i < plan->u.poles; i++)                                                 \
+			for (size_t k = 0; k < plan->v.poles; k++) {                                           \
+				const size_t from = k * plan->u.poles + i;                                         \
+				const double weight = plan->rational ? item->weights[from] : 1.0;                  \
+				for (size_t c = 0; c < 3; c++, to += lanes)                                        \
+					*to = (number)(item->poles_m[3 * from + c] * weight);                          \
+				if (plan->rational) {                                                              \
+					*to = (number)weight;                                                          \
+					to += lanes;                                                                   \
+				}                                                                                  \
+			}                                                                                      \
+	}
+PACK(pack_doubles, double)
+PACK(pack_floats, float)
+
 void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t lane, size_t lanes,
                       void *net, void *least_area)
 {
-	const size_t dimension = surface_plan_dimension(plan);
 	const double angle = plan->precision == BATTEN_F64 ? SURFACE_ANGLE_F64 : SURFACE_ANGLE_F32;
-	for (size_t i = 0; i < plan->u.poles; i++)
-		for (size_t k = 0; k < plan->v.poles; k++) {
-			const size_t from = k * plan->u.poles + i;
-			const size_t to = (i * plan->v.poles + k) * dimension;
-			const double weight = plan->rational ? item->weights[from] : 1.0;
-			for (size_t c = 0; c < 3; c++)
-				put(plan, net, (to + c) * lanes + lane, item->poles_m[3 * from + c] * weight);
-			if (plan->rational)
-				put(plan, net, (to + 3) * lanes + lane, weight);
-		}
+	if (plan->precision == BATTEN_F64)
+		pack_doubles(plan, item, lanes, (double *)net + lane);
+	else
+		pack_floats(plan, item, lanes, (float *)net + lane);
 	put(plan, least_area, lane, (angle * item->area) * (angle * item->area));
 }
 

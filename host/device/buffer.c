@@ -1,6 +1,7 @@
 #include "device/system.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 static batten_status create(device_session *session, cl_mem_flags flags, size_t size, void *memory,
                             device_buffer **out)
@@ -35,17 +36,12 @@ static batten_status create(device_session *session, cl_mem_flags flags, size_t 
 batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
                                    device_buffer **out)
 {
-	device_buffer *buffer = NULL;
-	batten_status status = create(session, CL_MEM_READ_WRITE, size, NULL, &buffer);
-	if (status != BATTEN_OK)
-		return status;
-	if (initial && buffer)
-		status = device_buffer_write(buffer, size, initial);
-	if (status == BATTEN_OK)
-		*out = buffer;
-	else
-		device_buffer_destroy(buffer);
-	return status;
+	/* Copied at once, on a CPU by this thread: a command of the queue would wake another and wait for it.
+	 * OpenCL takes a pointer that it could write through; this flag rules that out. */
+	const cl_mem_flags copied = initial ? CL_MEM_COPY_HOST_PTR : 0;
+	void *from = NULL;
+	memcpy(&from, &initial, sizeof from);
+	return create(session, CL_MEM_READ_WRITE | copied, size, from, out);
 }
 
 batten_status device_buffer_wrap(device_session *session, size_t size, void *memory,
@@ -54,13 +50,14 @@ batten_status device_buffer_wrap(device_session *session, size_t size, void *mem
 	return create(session, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, size, memory, out);
 }
 
-batten_status device_buffer_settle(device_buffer *buffer)
+/* Its bits come to the host when this is done. */
+static batten_status enqueue_settling(device_buffer *buffer)
 {
 	device_session *session = buffer->session;
 	const device_opencl *opencl = &session->system->opencl;
 	cl_int code = CL_SUCCESS;
 	void *mapped = DEVICE_CREATE(opencl, &code, EnqueueMapBuffer, session->queue, buffer->memory,
-	                             CL_TRUE, CL_MAP_READ, 0, buffer->size, 0, NULL, NULL);
+	                             CL_FALSE, CL_MAP_READ, 0, buffer->size, 0, NULL, NULL);
 	if (code != CL_SUCCESS || !mapped)
 		return device_session_fail_call(session, code, "clEnqueueMapBuffer of %zu bytes",
 		                                buffer->size);
@@ -68,7 +65,15 @@ batten_status device_buffer_settle(device_buffer *buffer)
 	                   NULL, NULL);
 	if (code != CL_SUCCESS)
 		return device_session_fail_call(session, code, "clEnqueueUnmapMemObject");
-	return device_finish(session);
+	return BATTEN_OK;
+}
+
+batten_status device_buffers_settle(device_buffer *const *buffers, size_t count)
+{
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
+		status = enqueue_settling(buffers[i]);
+	return status == BATTEN_OK ? device_finish(buffers[0]->session) : status;
 }
 
 void device_buffer_destroy(device_buffer *buffer)

@@ -43,10 +43,11 @@ size_t device_kernel_group_limit(const device_kernel *kernel);
 batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
                                    device_buffer **out);
 /* A buffer that is the caller's own memory, which is to outlive it: kernels of a CPU write there with
- * no copy made. What they wrote may be read after device_buffer_settle(). */
+ * no copy made. What they wrote may be read after device_buffers_settle(). */
 batten_status device_buffer_wrap(device_session *session, size_t size, void *memory,
                                  device_buffer **out);
-batten_status device_buffer_settle(device_buffer *buffer); /* waits */
+/* Waits, once for all of count >= 1 buffers of one session. */
+batten_status device_buffers_settle(device_buffer *const *buffers, size_t count);
 void device_buffer_destroy(device_buffer *buffer);
 batten_status device_buffer_write(device_buffer *buffer, size_t size, const void *from);
 batten_status device_buffer_read(device_buffer *buffer, size_t size, void *to); /* waits */

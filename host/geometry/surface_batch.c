@@ -80,27 +80,26 @@ batten_status surface_topology_of(batten_context *context, size_t count,
 	return BATTEN_OK;
 }
 
-static double largest_of(const double *numbers, size_t count)
+static double largest_of(surface_range range)
 {
-	const surface_range range = surface_range_of(numbers, count, 1);
 	return fmax(-range.least, range.most);
 }
 
 static double largest_of_table(const surface_samples *samples)
 {
-	return (double)samples->order *
-	       largest_of(samples->table,
-	                  samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order));
+	const size_t numbers = samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order);
+	return (double)samples->order * largest_of(surface_range_of(samples->table, numbers));
 }
 
 /* Squares of derivatives must stay finite in the precision. */
-static batten_status check_size(const surface_plan *plan, const batten_surface *surface, size_t s,
-                                double tables)
+static batten_status check_size(const surface_plan *plan, const batten_surface_net *net,
+                                const surface_box *box, size_t s, double tables)
 {
-	const size_t count = surface->count_u * surface->count_v;
-	double size = largest_of(surface->poles, 3 * count) * tables;
-	if (surface->weights) {
-		const surface_range weights = surface_range_of(surface->weights, count, 1);
+	const double far = fmax(largest_of(box->along[0]),
+	                        fmax(largest_of(box->along[1]), largest_of(box->along[2])));
+	double size = far * tables;
+	if (net->weights) {
+		const surface_range weights = surface_range_of(net->weights, net->count_u * net->count_v);
 		if (!(weights.least >= 1e-6 && weights.most <= 1e6))
 			return batten_fail(plan->context, BATTEN_USAGE,
 			                   "surface %zu of %zu: weights %g to %g, 1e-6 to 1e6 are expected", s,
@@ -125,10 +124,12 @@ batten_status surface_items_of(batten_context *context, size_t count,
 	if (!items)
 		return BATTEN_MEMORY;
 	for (size_t s = 0; s < count && status == BATTEN_OK; s++) {
-		status = check_size(plan, surfaces[s], s, tables);
-		items[s] = (surface_item){ .poles_m = surfaces[s]->poles,
-			                       .weights = surfaces[s]->weights,
-			                       .area = surface_net_area(surfaces[s]) };
+		const batten_surface_net net = batten_surface_describe(surfaces[s]);
+		const surface_box box = surface_box_of(&net);
+		status = check_size(plan, &net, &box, s, tables);
+		items[s] = (surface_item){ .poles_m = net.poles_m,
+			                       .weights = net.weights,
+			                       .area = surface_net_area(&net, &box) };
 	}
 	if (status == BATTEN_OK)
 		*out = items;

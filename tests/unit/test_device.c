@@ -112,12 +112,12 @@ static void test_wrapped_memory(void **state)
 	assert_int_equal(
 		device_buffer_write(buffer, 48, "a text of less than forty-eight bytes, and zeros"),
 		BATTEN_OK);
-	assert_int_equal(device_buffer_settle(buffer), BATTEN_OK);
+	assert_int_equal(device_buffers_settle(&buffer, 1), BATTEN_OK);
 	assert_memory_equal(bytes + 8, "a text of less than forty-eight bytes, and zeros", 48);
 	assert_true(bytes[7] == 0 && bytes[56] == 0);
 	for (unsigned long k = 1; k <= 3; k++) { /* map, unmap, finish */
 		(void)device_fail_call(k);
-		assert_int_equal(device_buffer_settle(buffer), BATTEN_DEVICE);
+		assert_int_equal(device_buffers_settle(&buffer, 1), BATTEN_DEVICE);
 		(void)device_fail_call(0);
 	}
 	device_buffer_destroy(buffer);
