@@ -44,6 +44,7 @@ batten_status bench_search_net(const bench_settings *settings);
 batten_status bench_surface_curvature_grid(const bench_settings *settings);
 batten_status bench_fairing_pass(const bench_settings *settings);
 batten_status bench_surface_energy(const bench_settings *settings);
+batten_status bench_surface_hydrostatics(const bench_settings *settings);
 batten_status bench_surface_c_vectors(const bench_settings *settings);
 batten_status bench_surface_opencascade(const bench_settings *settings);
 batten_status bench_variation_lackenby(const bench_settings *settings);

@@ -1,4 +1,5 @@
 /* batten_device_selftest: every kernel in the shape a device would run it in. */
+#include "batch/afloat_engine.h"
 #include "batch/block_engine.h"
 #include "batch/net_engine.h"
 #include "batch/pass_engine.h"
@@ -108,7 +109,19 @@ static batten_status test_stretches(batten_context *context, size_t index,
 	return test_pass(context, index, device, precision, true, result);
 }
 
-/* Of one precision only. */
+/* These are of one precision only. */
+static batten_status test_afloat(batten_context *context, size_t index, const batten_device *device,
+                                 batten_selftest *result)
+{
+	const size_t net = AFLOAT_ORDER_MOST;
+	const afloat_plan plan = {
+		.context = context,
+		.shape = { [AFLOAT_COUNT] = (int32_t)net, [AFLOAT_COUNT + 1] = (int32_t)net },
+	};
+	batch_engine *engine = NULL;
+	return afloat_engine_open(&plan, index, device, &engine, result);
+}
+
 static batten_status test_variants(batten_context *context, size_t index,
                                    const batten_device *device, batten_selftest *result)
 {
@@ -129,17 +142,19 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 		batten_context *, size_t, const batten_device *, batten_precision,
 		batten_selftest *) = { test_search, test_textbook, test_block,    test_surfaces,
 		                       test_nets,   test_passes,   test_stretches };
-	enum { PRECISIONS = 2, TESTS = 7 };
-	*count = (size_t)PRECISIONS * TESTS + 1;
-	for (size_t t = 0; t + 1 < *count && t < capacity; t++) {
-		const batten_status opened = tests[t / PRECISIONS](context, index, &device,
-		                                                   precisions[t % PRECISIONS], &results[t]);
+	static batten_status (*const double_tests[])(batten_context *, size_t, const batten_device *,
+	                                             batten_selftest *) = { test_variants,
+		                                                                test_afloat };
+	enum { PRECISIONS = 2, BOTH = 7 * PRECISIONS, TESTS = BOTH + 2 };
+	*count = TESTS;
+	for (size_t t = 0; t < TESTS && t < capacity; t++) {
+		const batten_status opened = t < BOTH ? tests[t / PRECISIONS](context, index, &device,
+		                                                              precisions[t % PRECISIONS],
+		                                                              &results[t])
+		                                      : double_tests[t - BOTH](context, index, &device,
+		                                                               &results[t]);
 		if (opened == BATTEN_MEMORY)
 			return opened;
 	}
-	if (capacity < *count)
-		return BATTEN_OK;
-	return test_variants(context, index, &device, &results[*count - 1]) == BATTEN_MEMORY
-	           ? BATTEN_MEMORY
-	           : BATTEN_OK;
+	return BATTEN_OK;
 }

@@ -173,14 +173,20 @@ static void take_extents(struct patch *patch)
 	refine_half_beam(patch, best_u, best_v, step_u / SAMPLES, step_v / SAMPLES);
 }
 
+size_t patch_points(size_t order_u, size_t order_v, size_t points)
+{
+	enum { POINTS_LEAST = 12 };
+	const size_t degree = (order_u > order_v ? order_u : order_v) - 1;
+	if (points > 0)
+		return points;
+	return 2 * degree > POINTS_LEAST ? 2 * degree : POINTS_LEAST;
+}
+
 batten_status patch_create(batten_context *context, const struct batten_surface *surface,
                            size_t points, struct patch *out)
 {
-	enum { POINTS_LEAST = 12 };
-	struct patch made = { .context = context, .surface = surface, .points = points };
-	size_t order = surface->order_u > surface->order_v ? surface->order_u : surface->order_v;
-	if (points == 0)
-		made.points = 2 * (order - 1) > POINTS_LEAST ? 2 * (order - 1) : POINTS_LEAST;
+	struct patch made = { .context = context, .surface = surface };
+	made.points = patch_points(surface->order_u, surface->order_v, points);
 	gauss_points(made.points, made.nodes, made.weights);
 	for (size_t k = 0; k < made.points; k++) {
 		made.nodes[k] = 0.5 * (1 + made.nodes[k]);

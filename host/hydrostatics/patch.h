@@ -18,7 +18,10 @@ struct patch {
 	double lowest_m, highest_m, foremost_m, aftmost_m, half_beam_m;
 };
 
-/* points 0 takes the default of batten_hydrostatics_options. The surface is borrowed.
+/* Gauss points of an interval; 0 takes the default of batten_hydrostatics_options. */
+size_t patch_points(size_t order_u, size_t order_v, size_t points);
+
+/* points as patch_points(). The surface is borrowed.
  * Errors: USAGE, MEMORY. */
 batten_status patch_create(batten_context *context, const struct batten_surface *surface,
                            size_t points, struct patch *out);

@@ -217,6 +217,26 @@ BATTEN_API batten_status batten_hull_hydrostatics_batch(
 	const batten_batch_options *batch, size_t count, const double *y_m, const uint8_t *nodes,
 	size_t draft_count, const double *drafts_m, batten_hydrostatics *out, batten_run *run);
 
+/* What became of one surface of a batch. */
+typedef struct batten_afloat_result {
+	batten_status status; /* OK: there are numbers */
+	char reason[120];     /* one line when there are none */
+} batten_afloat_result;
+
+/* batten_surface_hydrostatics() of count surfaces of one topology (equal orders, counts and knots, all
+ * rational or none). out is the caller's, [count][draft_count]; results [count]. A surface that cannot be
+ * measured, as a draft is beyond it, has its reason and NaN for numbers, and the others go on; without
+ * results the first such surface ends the batch. The numbers of a surface do not depend on the others nor
+ * (when strict) on what ran it, and are those of batten_surface_hydrostatics() within rounding; the largest
+ * section and half-breadths within what a search for a largest value leaves. options, batch, results and
+ * run may be NULL. Errors: as batten_surface_hydrostatics(), USAGE (surfaces unlike the first, more than
+ * 64 drafts), DEVICE, KERNEL, MEMORY; out is then not to be used. */
+BATTEN_API batten_status batten_surface_hydrostatics_batch(
+	batten_context *context, size_t count, const batten_surface *const *surfaces,
+	const batten_hydrostatics_options *options, const batten_batch_options *batch,
+	size_t draft_count, const double *drafts_m, batten_hydrostatics *out,
+	batten_afloat_result *results, batten_run *run);
+
 /* What differs from row to row, as in batten_vary_options. */
 typedef struct batten_vary_row {
 	double dcp_pct, dlcb_pct, dp_fore_pct, dp_aft_pct;
