@@ -52,7 +52,7 @@ typedef double block_tile[BLOCK_INPUT_COUNT][TILE];
 /* Whether nodes i to i + count of waterline k and their eight neighbours are all on the hull, as 1 or 0: only
  * there has the energy a term. */
 static void mark_terms(const search_plan *plan, const batten_search_problem *problem, size_t i,
-                       size_t k, size_t count, uint8_t *has)
+                       size_t k, size_t count, uint8_t *restrict has)
 {
 	const size_t row = plan->station_count;
 	memset(has, 0, count);
@@ -60,14 +60,15 @@ static void mark_terms(const search_plan *plan, const batten_search_problem *pro
 		return;
 	const size_t first = i == 0 ? 1 : i;
 	const size_t end = i + count == row ? row - 1 : i + count;
-	for (size_t c = first; c < end; c++) {
-		bool all = true;
-		for (size_t b = k - 1; problem->nodes && b <= k + 1; b++) {
-			const uint8_t *node = problem->nodes + b * row + c;
-			all = all & (node[-1] != BATTEN_NODE_OUTSIDE) & (node[0] != BATTEN_NODE_OUTSIDE) &
-			      (node[1] != BATTEN_NODE_OUTSIDE);
-		}
-		has[c - i] = all;
+	memset(has + (first - i), 1, end - first);
+	if (!problem->nodes)
+		return;
+	for (size_t b = k - 1; b <= k + 1; b++) {
+		const uint8_t *node = problem->nodes + b * row;
+		for (size_t c = first; c < end; c++)
+			has[c - i] &= (uint8_t)((node[c - 1] != BATTEN_NODE_OUTSIDE) &
+			                        (node[c] != BATTEN_NODE_OUTSIDE) &
+			                        (node[c + 1] != BATTEN_NODE_OUTSIDE));
 	}
 }
 
@@ -80,18 +81,20 @@ static void fill_tile(const search_plan *plan, const batten_search_problem *prob
 	const double *lower = problem->lower_m + at;
 	const double *upper = problem->upper_m + at;
 	const double *start = problem->start_m + at;
+	double weight[TILE];
 	uint8_t has[TILE];
 	mark_terms(plan, problem, i, k, count, has);
+	for (size_t j = 0; j < count; j++)
+		weight[j] = problem->closeness_weight ? problem->closeness_weight[at + j] : 1.0;
+	memcpy(tile[BLOCK_INPUT_LOWER], lower, count * sizeof *lower);
+	memcpy(tile[BLOCK_INPUT_UPPER], upper, count * sizeof *upper);
+	memcpy(tile[BLOCK_INPUT_TARGET], problem->target_m + at, count * sizeof(double));
 	for (size_t j = 0; j < count; j++) {
 		const double cell = plan->cell_x[i + j] * plan->cell_z[k];
-		const double weight = problem->closeness_weight ? problem->closeness_weight[at + j] : 1.0;
 		const double least = start[j] < lower[j] ? lower[j] : start[j];
-		tile[BLOCK_INPUT_LOWER][j] = lower[j];
-		tile[BLOCK_INPUT_UPPER][j] = upper[j];
 		tile[BLOCK_INPUT_START][j] = least > upper[j] ? upper[j] : least;
-		tile[BLOCK_INPUT_TARGET][j] = problem->target_m[at + j];
 		tile[BLOCK_INPUT_BEND][j] = has[j] ? problem->w1 * cell : 0.0;
-		tile[BLOCK_INPUT_CLOSE][j] = problem->w2 * weight * cell / (h2 * h2);
+		tile[BLOCK_INPUT_CLOSE][j] = problem->w2 * weight[j] * cell / (h2 * h2);
 	}
 	for (size_t j = 0; problem->nodes && j < count; j++)
 		if (problem->nodes[at + j] == BATTEN_NODE_OUTSIDE)

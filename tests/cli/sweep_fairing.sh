@@ -4,22 +4,24 @@
 . "$(dirname "$0")/sweep_lib.sh"
 without_pictures
 
-# fairing NAME SETTINGS DESIGNS PARAMETERS: a plan that varies nothing but how the trawler is faired.
+# fairing NAME SETTINGS PARAMETERS: a plan that varies nothing but how $parent, the trawler, is faired.
 fairing()
 {
-	printf '{ "batten_plan": 1, "name": "test", "parent": { "hull": "%s/bsra_trawler.csv" },
+	printf '{ "batten_plan": 1, "name": "test", "parent": { "hull": "%s" },
 	"parameters": { %s }, "sampling": { "method": "grid" }, "fair": { %s },
-	"keep": { "offsets": "all" } }\n' "$hulls" "$3" "$2" >"$1"
+	"keep": { "offsets": "all" } }\n' "$parent" "$3" "$2" >"$1"
 }
+parent=$hulls/bsra_trawler.csv
+smooth=--no-smooth
 levels='{ "from": 1, "to": 100, "steps": 2, "scale": "log" }'
 
-# like COMMAND_OPTIONS: the last design of way.db is what the command makes.
+# like COMMAND_OPTIONS: design $id of way.db is what the command makes.
 like()
 {
 	expect 0 export way.db --id "$id" --out design.csv
 	rm -rf alone
 	# shellcheck disable=SC2086
-	"$BATTEN" fair "$hulls/bsra_trawler.csv" --device reference --no-smooth $1 --out alone >"$out" 2>"$talk" ||
+	"$BATTEN" fair "$parent" --device reference $smooth $1 --out alone >"$out" 2>"$talk" ||
 		[ $? = 1 ] || fail "batten fair $1"
 	grep -v '^#' design.csv >design.rows
 	grep -v '^#' alone/faired.csv >alone.rows
@@ -64,6 +66,32 @@ expect 0 sweep way.json --out way.db
 id=1
 like '--method forward-approximation --order 4 --iterations 2'
 equals 'no weight' "$(ask way.db 'SELECT count(*) FROM measures WHERE w2_over_w1 IS NULL AND search_iterations = 2')" 2
+
+way='forward fit'
+rm way.db
+fairing way.json '"method": "forward-fit", "order": "o", "iterations": 1' '"o": { "values": [3, 4] }'
+expect 0 sweep way.json --out way.db
+id=1
+like '--method forward-fit --order 4 --iterations 1'
+
+way='inverse'
+rm way.db
+fairing way.json '"method": "inverse", "order": 3, "iterations": "n"' '"n": { "values": [1, 2] }'
+expect 0 sweep way.json --out way.db
+id=1
+like '--method inverse --order 3 --iterations 2'
+
+way='smoothed, then searched'
+rm way.db
+# One offset is wrong, by a tenth: smoothing finds it.
+awk -F, -v OFS=, '/^[0-9]/ && ++row == 6 { $7 *= 1.1 } { print }' "$hulls/wigley.csv" >wrong.csv
+parent=wrong.csv
+fairing way.json '"smooth": true, "w2_over_w1": "w"' "\"w\": $levels"
+expect 0 sweep way.json --out way.db
+id=0
+smooth=
+like '--w1 1 --w2 1'
+grep -q '"replaced": \[\]' alone/report.json && fail "nothing was smoothed"
 
 # What does not go together is refused, and nothing made.
 refuse()
