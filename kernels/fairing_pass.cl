@@ -63,6 +63,22 @@ static inline void give_back(global const real *state, int values, int hulls, gl
 	}
 }
 
+/* The hulls that this group takes next on their way into the cache, and where these go. */
+static inline void fetch(global const number *from, global number *to, int first, int hulls,
+                         int values)
+{
+	enum { LINE = 64 / sizeof(number) };
+	const size_t next = (size_t)first + get_num_groups(0) * BATTEN_LANES;
+	const size_t here = hulls - first < BATTEN_LANES ? hulls - first : BATTEN_LANES;
+	const size_t end = here * (size_t)values;
+	ROLLED
+	for (size_t n = WORK_ITEM * LINE; n < end; n += WORK_ITEMS * LINE) {
+		FETCH_TO_WRITE(to + (size_t)first * (size_t)values + n);
+		if (next + BATTEN_LANES <= (size_t)hulls)
+			FETCH(from + next * (size_t)values + n);
+	}
+}
+
 /* Tells of hulls that are none: looking at their numbers here costs no journey to memory. */
 static inline void refuse(global const int *shape, global const real *state, int hulls,
                           global int *refused)
@@ -99,6 +115,7 @@ kernel void fairing_pass(int hulls, int state_size, global const int *shape,
 			state[values + c] = SPREAD(constants[c]);
 		WAIT;
 		refuse(shape, state, here, refused + first);
+		fetch(from, to, first, hulls, values);
 		pass_run(&program, state);
 		give_back(state, values, here, to + begin);
 		WAIT;

@@ -64,32 +64,35 @@ SHARED_FUNCTION void pass_add_point(const pass_line *l, int i, real y)
 	}
 }
 
-/* The factor of the normal equations in the place of their band, its diagonal inverted: a division takes
- * longer than many products. 1 where a pivot is lost. */
+/* L D L^T of the normal equations in the place of their band: 1 / D on the diagonal, L beside it, which
+ * takes no roots. D goes where the parameters were, which have done their work. 1 where a pivot is lost. */
 SHARED_FUNCTION real pass_factor(const pass_line *l)
 {
 	const int order = l->order;
+	GLOBAL real *pivot = l->parameter;
 	const real one = SPREAD(LITERAL(1.0));
 	real lost = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int i = 0; i < l->vertices; i++) {
-		const real diagonal = l->band[i * order];
-		real inverse = diagonal;
+		GLOBAL real *row = l->band + i * order;
+		const real diagonal = row[0];
+		const int first = i - order + 1 > 0 ? i - order + 1 : 0;
+		const int end = l->vertices - i < order ? l->vertices - i : order;
 		ROLLED
-		for (int d = 0; d < order && i + d < l->vertices; d++) {
-			real sum = l->band[i * order + d];
+		for (int q = first; q < i; q++) {
+			GLOBAL const real *other = l->band + q * order + i - q;
+			const real part = -(other[0] * pivot[q]);
 			ROLLED
-			for (int q = i + d - order + 1 > 0 ? i + d - order + 1 : 0; q < i; q++)
-				sum -= l->band[q * order + i - q] * l->band[q * order + i + d - q];
-			if (d == 0) {
-				const mask good = sum > SPREAD(PASS_PIVOT) * diagonal;
-				lost = CHOOSE(good, lost, one);
-				inverse = one / SQUARE_ROOT(CHOOSE(good, sum, one));
-				l->band[i * order] = inverse;
-			} else {
-				l->band[i * order + d] = sum * inverse;
-			}
+			for (int d = 0; d < end && i + d - q < order; d++)
+				row[d] = FUSED(part, other[d], row[d]);
 		}
+		const mask good = row[0] > SPREAD(PASS_PIVOT) * diagonal;
+		lost = CHOOSE(good, lost, one);
+		pivot[i] = CHOOSE(good, row[0], one);
+		row[0] = one / pivot[i];
+		ROLLED
+		for (int d = 1; d < end; d++)
+			row[d] *= row[0];
 	}
 	return lost;
 }
@@ -98,20 +101,20 @@ SHARED_FUNCTION void pass_solve(const pass_line *l, GLOBAL real *right)
 {
 	const int order = l->order;
 	ROLLED
-	for (int i = 0; i < l->vertices; i++) {
+	for (int i = 1; i < l->vertices; i++) {
 		real sum = right[i];
 		ROLLED
 		for (int q = i - order + 1 > 0 ? i - order + 1 : 0; q < i; q++)
-			sum -= l->band[q * order + i - q] * right[q];
-		right[i] = sum * l->band[i * order];
+			sum = FUSED(-l->band[q * order + i - q], right[q], sum);
+		right[i] = sum;
 	}
 	ROLLED
 	for (int i = l->vertices - 1; i >= 0; i--) {
-		real sum = right[i];
+		real sum = right[i] * l->band[i * order];
 		ROLLED
 		for (int d = 1; d < order && i + d < l->vertices; d++)
-			sum -= l->band[i * order + d] * right[i + d];
-		right[i] = sum * l->band[i * order];
+			sum = FUSED(-l->band[i * order + d], right[i + d], sum);
+		right[i] = sum;
 	}
 }
 
@@ -153,6 +156,25 @@ SHARED_FUNCTION void pass_find_knots(const pass_line *l)
 	}
 }
 
+/* The points into the normal equations, and the new y from their solution, at any order. */
+SHARED_FUNCTION void pass_add_points(const pass_line *l, GLOBAL const real *state)
+{
+	ROLLED
+	for (int i = 0; i < l->points; i++)
+		pass_add_point(l, i, state[l->from[i]]);
+}
+
+SHARED_FUNCTION void pass_move_points(const pass_line *l, real lost, GLOBAL real *state)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	pass_find_knots(l);
+	ROLLED
+	for (int i = 1; i + 1 < l->points; i++) {
+		const real fitted = pass_fitted(l, l->band, l->along[i]);
+		state[l->to[i]] = CHOOSE(lost > zero, state[l->from[i]], fitted);
+	}
+}
+
 SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 {
 	const real zero = SPREAD(LITERAL(0.0));
@@ -162,12 +184,10 @@ SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 	for (int i = 0; i < l->vertices * (l->order + 2); i++)
 		l->band[i] = zero; /* x and y follow the band */
 	pass_find_parameters(l, state);
-	ROLLED
-	for (int i = 0; i <= end; i++)
-		if (quadratic)
-			quadratic_add_point(l, i, state[l->from[i]]);
-		else
-			pass_add_point(l, i, state[l->from[i]]);
+	if (quadratic)
+		quadratic_add_points(l, state);
+	else
+		pass_add_points(l, state);
 	const real lost = pass_factor(l);
 	pass_solve(l, l->x);
 	pass_solve(l, l->y);
@@ -176,16 +196,9 @@ SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 	l->x[l->vertices - 1] = SPREAD(l->along[end]);
 	l->y[l->vertices - 1] = state[l->from[end]];
 	if (quadratic)
-		quadratic_find_joints(l);
+		quadratic_move_points(l, lost, state);
 	else
-		pass_find_knots(l);
-	ROLLED
-	for (int i = 1; i < end; i++) {
-		const real fitted = quadratic ? quadratic_fitted(l, l->along[i])
-		                              : pass_fitted(l, l->band, l->along[i]);
-		const real old = state[l->from[i]];
-		state[l->to[i]] = CHOOSE(lost > zero, old, fitted);
-	}
+		pass_move_points(l, lost, state);
 }
 
 #endif

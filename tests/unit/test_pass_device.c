@@ -36,7 +36,8 @@ static batten_pass *make_pass(batten_context *context, const batten_hull *hull, 
 	return make_pass_of(context, hull, options_of(method, precision), device);
 }
 
-/* The hull, each time with other noise. */
+/* The hull, each time with other noise and one of five breadths: points of neighbouring lanes lie in other
+ * spans of a fit. */
 static batch make_batch(const batten_pass *pass, const batten_hull *hull)
 {
 	batch b = { .values = batten_pass_describe(pass).value_count };
@@ -50,7 +51,7 @@ static batch make_batch(const batten_pass *pass, const batten_hull *hull)
 	for (size_t n = 0; n < HULLS * b.values; n++) {
 		state = state * 1664525u + 1013904223u;
 		if (b.y[n] > 0)
-			b.y[n] *= 1 + 0.01 * (double)(state >> 8) / (1u << 24);
+			b.y[n] *= (double)(1 + n / b.values % 5) + 0.01 * (double)(state >> 8) / (1u << 24);
 	}
 	return b;
 }
