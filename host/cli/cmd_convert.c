@@ -3,28 +3,32 @@
 
 #include "json_out.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 static const cli_command command = {
 	.name = "convert",
-	.usage = "IN OUT [--surface NAME|N] [OPTION ...]",
+	.usage = "IN OUT [--surface NAME|N] [--turn AXIS:DEGREES] [OPTION ...]",
 	.summary = "takes the B-spline surfaces of a file into another format",
 	.example = "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.json\n"
 			   "  batten convert npl.json npl.step\n"
-			   "  batten convert npl.step npl.igs --json\n",
+			   "  batten convert npl.step npl.igs --json\n"
+			   "  batten convert y_up.igs hull.json --turn x:90\n",
 	.notes =
 		"The endings choose the formats: .json (data/schema/surface.schema.json, one surface), .igs\n"
 		"or .iges (IGES, entity 128), .stp or .step (STEP). Any unit is read, metres are written;\n"
 		"the axes are taken as they are: ap-fwd is x forward from the aft perpendicular, y to port,\n"
-		"z up. Poles, knots and weights keep every digit. Trimmed surfaces and whatever is no\n"
+		"z up. --turn brings others there: x:90 what has y up, z:180 what has x aft. Without it poles,\n"
+		"knots and weights keep every digit. Trimmed surfaces and whatever is no\n"
 		"B-spline surface are left out with a warning. Offsets become a surface by batten surface.\n",
 };
 
 struct request {
 	cli_common common;
-	const char *in, *out, *surface;
+	const char *in, *out, *surface, *turn;
+	double matrix[9]; /* of turn */
 };
 
 bool cli_is_surface_file(const char *path)
@@ -117,6 +121,38 @@ static batten_status write_all(const struct request *request, batten_context *co
 	return BATTEN_OK;
 }
 
+/* Copies that are turned, in the place of the surfaces; the caller destroys what there is in turned. */
+static batten_status turn_all(const struct request *request, batten_context *context, size_t count,
+                              const batten_surface **surfaces, batten_surface **turned)
+{
+	const double nowhere[3] = { 0.0, 0.0, 0.0 };
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; i < count && status == BATTEN_OK; i++) {
+		status = batten_surface_clone(context, surfaces[i], &turned[i]);
+		if (status == BATTEN_OK)
+			status = batten_surface_map(turned[i], request->matrix, nowhere);
+		surfaces[i] = turned[i];
+	}
+	return status == BATTEN_OK ? status : cli_failure("convert", context, status);
+}
+
+static batten_status write_turned(const struct request *request, batten_context *context,
+                                  const batten_surfaces *list, size_t count,
+                                  const batten_surface **surfaces)
+{
+	if (!request->turn)
+		return write_all(request, context, list, count, surfaces);
+	batten_surface **turned = calloc(count, sizeof *turned);
+	batten_status status = turned ? turn_all(request, context, count, surfaces, turned)
+	                              : BATTEN_MEMORY;
+	if (status == BATTEN_OK)
+		status = write_all(request, context, list, count, surfaces);
+	for (size_t i = 0; turned && i < count; i++)
+		batten_surface_destroy(turned[i]);
+	free(turned);
+	return status;
+}
+
 static batten_status convert(const struct request *request, batten_context *context)
 {
 	batten_surfaces *list = NULL;
@@ -137,7 +173,7 @@ static batten_status convert(const struct request *request, batten_context *cont
 		                   "number from 1 to %zu",
 		                   request->surface, batten_surfaces_count(list));
 	else if (surfaces)
-		status = write_all(request, context, list, count, surfaces);
+		status = write_turned(request, context, list, count, surfaces);
 	free(surfaces);
 	batten_surfaces_destroy(list);
 	return status;
@@ -158,12 +194,30 @@ static batten_status check_paths(const struct request *request)
 	return BATTEN_OK;
 }
 
+/* "x:90". Quarter turns are exact: no digit of a pole is lost. */
+static batten_status read_turn(struct request *request, batten_context *context)
+{
+	const char *text = request->turn;
+	char *end = NULL;
+	const double degrees = text[0] && text[1] == ':' ? strtod(text + 2, &end) : 0.0;
+	if (!strchr("xyz", text[0]) || !end || end == text + 2 || *end != '\0' || !isfinite(degrees))
+		return cli_usage("convert", "--turn: found '%s', expected AXIS:DEGREES, as x:90", text);
+	const double axis[] = { text[0] == 'x', text[0] == 'y', text[0] == 'z' };
+	const batten_status status = batten_rotation(context, axis, degrees * (acos(-1.0) / 180.0),
+	                                             request->matrix);
+	for (size_t n = 0; n < 9 && fmod(degrees, 90.0) == 0.0; n++)
+		request->matrix[n] = round(request->matrix[n]);
+	return status;
+}
+
 batten_status cli_convert(int argc, char **argv)
 {
 	struct request request = { 0 };
 	const cli_option options[] = {
 		{ "surface", CLI_TEXT, &request.surface, "NAME|N",
 		  "only the surface of this name or number, from 1" },
+		{ "turn", CLI_TEXT, &request.turn, "AXIS:DEGREES",
+		  "about the x, y or z axis: x takes y to z, y z to x, z x to y" },
 		{ 0 },
 	};
 	const char *paths[2] = { NULL, NULL };
@@ -183,7 +237,10 @@ batten_status cli_convert(int argc, char **argv)
 		status = cli_context_create("convert", &request.common, &context);
 	if (status != BATTEN_OK)
 		return status;
-	status = convert(&request, context);
+	if (request.turn)
+		status = read_turn(&request, context);
+	if (status == BATTEN_OK)
+		status = convert(&request, context);
 	batten_context_destroy(context);
 	return status;
 }

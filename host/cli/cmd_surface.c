@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "json_out.h"
+#include "surface_contours.h"
 #include "surface_grid.h"
 
 #include <stdlib.h>
@@ -10,12 +11,13 @@
 static const cli_command command = {
 	.name = "surface",
 	.usage = "HULL.csv --net MxN [--out FILE] [OPTION ...]\n"
-			 "       batten surface SURFACE --grid FILE [--points MxN]",
+			 "       batten surface SURFACE --grid FILE | --contours FILE --at LIST [--points MxN]",
 	.summary = "fits a B-spline surface to the offsets of a hull by least squares",
 	.example = "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.json\n"
 			   "  batten surface data/hulls/npl_parent.csv --net 13x13 --out npl.igs\n"
 			   "  batten surface data/hulls/wigley.csv --net 3x3 --order 3x3 --json\n"
-			   "  batten surface npl.json --grid curvature.csv --points 101x51\n",
+			   "  batten surface npl.json --grid curvature.csv --points 101x51\n"
+			   "  batten surface npl.json --contours lines.csv --at z=0.05,z=0.1,x=2.1,gauss=0\n",
 	.notes =
 		"The net has M poles along the hull and N from keel to deck; its edges follow keel, stern,\n"
 		"stem and the tops of the sections. Edges in the centreplane keep y = 0. A net of as many\n"
@@ -26,14 +28,19 @@ static const cli_command command = {
 		"--grid writes a table of the surface, fitted or read: u, v, position, derivatives, both\n"
 		"fundamental forms, normal, curvatures (positive towards the outward normal, so that a\n"
 		"convex hull's are negative), principal directions, isophote value by light from port;\n"
-		"singular is 1 where there is no normal.\n",
+		"singular is 1 where there is no normal.\n"
+		"--contours writes lines of the surface, a row a point: waterlines z=0.5, sections x=8, buttocks\n"
+		"y=0.2, and where other values of --grid (gauss, mean, isophote ...) have a level. Points lie on\n"
+		"the surface where lines cross those of a mesh of --points.\n",
 };
 
 struct request {
 	cli_common common;
-	const char *hull_path, *out, *net, *order, *rounded, *grid, *points;
+	const char *hull_path, *out, *net, *order, *rounded, *grid, *points, *contours, *at;
 	bool free_edges, given; /* given: hull_path is a surface */
 	size_t u_count, v_count;
+	size_t level_count;
+	contour_level levels[CONTOURS_MOST];
 	batten_fit_options fit;
 };
 
@@ -80,13 +87,20 @@ static batten_status print_json(const struct request *request, const batten_hull
 	return cli_json_print("surface", object);
 }
 
-static batten_status write_grid(const struct request *request, batten_context *context,
-                                const batten_surface *surface)
+static batten_status write_tables(const struct request *request, batten_context *context,
+                                  const batten_surface *surface)
 {
-	return surface_grid_write(context, surface, request->u_count, request->v_count, request->grid);
+	batten_status status = BATTEN_OK;
+	if (request->grid)
+		status = surface_grid_write(context, surface, request->u_count, request->v_count,
+		                            request->grid);
+	if (status == BATTEN_OK && request->contours)
+		status = surface_contours_write(context, surface, request->u_count, request->v_count,
+		                                request->levels, request->level_count, request->contours);
+	return status;
 }
 
-/* A surface that is there already: its grid. */
+/* A surface that is there already: its tables. */
 static batten_status read_surface(const struct request *request, batten_context *context)
 {
 	batten_surfaces *surfaces = NULL;
@@ -100,7 +114,7 @@ static batten_status read_surface(const struct request *request, batten_context 
 		                 request->hull_path, count);
 	}
 	if (status == BATTEN_OK)
-		status = write_grid(request, context, batten_surfaces_at(surfaces, 0));
+		status = write_tables(request, context, batten_surfaces_at(surfaces, 0));
 	batten_surfaces_destroy(surfaces);
 	return status == BATTEN_OK ? status : cli_failure("surface", context, status);
 }
@@ -116,8 +130,8 @@ static batten_status make_surface(const struct request *request, batten_context 
 	if (status == BATTEN_OK && request->out)
 		status = batten_surfaces_write(context, 1, (const batten_surface *const *)&surface,
 		                               request->out);
-	if (status == BATTEN_OK && request->grid)
-		status = write_grid(request, context, surface);
+	if (status == BATTEN_OK)
+		status = write_tables(request, context, surface);
 	if (status != BATTEN_OK)
 		status = cli_failure("surface", context, status);
 	else if (request->common.json)
@@ -129,23 +143,44 @@ static batten_status make_surface(const struct request *request, batten_context 
 	return status;
 }
 
-static batten_status read_request(struct request *request)
+/* What is asked for of tables. */
+static batten_status read_tables(struct request *request)
 {
-	batten_fit_options *fit = &request->fit;
-	if (request->points && !request->grid)
-		return cli_usage("surface", "--points: --grid FILE was expected with it");
+	const bool wanted = request->grid || request->contours;
+	if (request->points && !wanted)
+		return cli_usage("surface",
+		                 "--points: --grid FILE or --contours FILE was expected with it");
 	if (request->points && (!cli_read_pair(request->points, &request->u_count, &request->v_count) ||
 	                        request->u_count < 2 || request->v_count < 2))
 		return cli_usage("surface", "--points: found '%s', expected MxN, as 65x33, each at least 2",
 		                 request->points);
+	if (!request->contours != !request->at)
+		return cli_usage("surface", "--contours FILE and --at LIST were expected together");
+	if (request->at && !surface_contours_read(request->at, request->levels, &request->level_count))
+		return cli_usage(
+			"surface",
+			"--at: found '%s', expected values of --grid without their units and levels, "
+			"at most %d, as z=0.5,x=8,gauss=0",
+			request->at, CONTOURS_MOST);
 	request->given = cli_is_surface_file(request->hull_path);
+	return request->given && !wanted
+	           ? cli_usage("surface",
+	                       "%s is a surface: --grid FILE or --contours FILE was expected",
+	                       request->hull_path)
+	           : BATTEN_OK;
+}
+
+static batten_status read_request(struct request *request)
+{
+	batten_fit_options *fit = &request->fit;
+	const batten_status status = read_tables(request);
+	if (status != BATTEN_OK)
+		return status;
 	if (request->given && (request->net || request->order || request->out || request->rounded))
-		return cli_usage("surface", "%s is a surface: only --grid was expected",
+		return cli_usage("surface", "%s is a surface: only --grid and --contours were expected",
 		                 request->hull_path);
 	if (request->given)
-		return request->grid ? BATTEN_OK
-		                     : cli_usage("surface", "%s is a surface: --grid FILE was expected",
-		                                 request->hull_path);
+		return BATTEN_OK;
 	if (!request->net)
 		return cli_usage("surface", "--net MxN was expected: poles along the hull, keel to deck");
 	if (!cli_read_pair(request->net, &fit->count_u, &fit->count_v))
@@ -178,7 +213,10 @@ batten_status cli_surface(int argc, char **argv)
 		{ "corrections", CLI_COUNT, &request.fit.correction_limit, "N",
 		  "rounds of better parameters, at most (20)" },
 		{ "grid", CLI_TEXT, &request.grid, "FILE", "a table of the surface, .csv or .json" },
-		{ "points", CLI_TEXT, &request.points, "MxN", "points of --grid along u and v (65x33)" },
+		{ "contours", CLI_TEXT, &request.contours, "FILE", "lines of the surface, .csv or .json" },
+		{ "at", CLI_TEXT, &request.at, "LIST", "what is the same along them: z=0.5,x=8,gauss=0" },
+		{ "points", CLI_TEXT, &request.points, "MxN",
+		  "points of --grid and mesh of --contours along u and v (65x33)" },
 		{ 0 },
 	};
 	size_t count = 0;

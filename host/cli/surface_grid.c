@@ -61,8 +61,8 @@ typedef struct grid {
 	uint8_t *singular;
 } grid;
 
-static void spread(const batten_surface *surface, batten_direction direction, size_t count,
-                   double *at)
+void surface_grid_spread(const batten_surface *surface, batten_direction direction, size_t count,
+                         double *at)
 {
 	double first = 0.0;
 	double last = 0.0;
@@ -95,8 +95,8 @@ static batten_status write_grid(batten_context *context, const batten_surface *s
 	batten_surface_batch_options_default(&options);
 	options.device = BATTEN_DEVICE_REFERENCE; /* one surface: no kernel is worth its compilation */
 	options.output = BATTEN_SURFACE_EVERYTHING;
-	spread(surface, BATTEN_DIRECTION_U, g->u_count, g->u);
-	spread(surface, BATTEN_DIRECTION_V, g->v_count, g->v);
+	surface_grid_spread(surface, BATTEN_DIRECTION_U, g->u_count, g->u);
+	surface_grid_spread(surface, BATTEN_DIRECTION_V, g->v_count, g->v);
 	const batten_surface_samples samples = { g->u_count, g->v_count, g->u, g->v };
 	const batten_status status = batten_surface_grid_batch(context, 1, &surface, &samples, &options,
 	                                                       g->values, g->singular, NULL);

@@ -4,6 +4,10 @@
 
 #include "batten.h"
 
+/* count >= 2 parameters evenly over the range of a direction. */
+void surface_grid_spread(const batten_surface *surface, batten_direction direction, size_t count,
+                         double *at);
+
 /* Writes everything that is known of the surface at u_count x v_count points, each 2 to 9999, evenly
  * spread over its parameters, a row a point, as a table (.csv or .json). Errors: those of
  * batten_surface_grid_batch() and batten_table_write(); MEMORY without a message. */

@@ -9,7 +9,7 @@ expect 0 convert --help
 prints '^usage: batten convert'
 prints '^example:'
 prints 'metres'
-for option in surface threads max-memory json quiet; do
+for option in surface turn threads max-memory json quiet; do
 	prints "^  --$option"
 done
 
@@ -81,6 +81,22 @@ cmp -s npl.json chosen.json || fail '--surface 1 is another surface'
 expect 0 convert npl.igs chosen.json --surface 'NPL parent hull'
 cmp -s npl.json chosen.json || fail '--surface by name is another surface'
 rm chosen.json
+# A quarter turn and back loses nothing; x takes y to z.
+expect 0 convert npl.igs turned.step --turn x:90
+expect 0 convert turned.step back.json --turn x:-90
+cmp -s npl.json back.json || fail 'a turn and its return change the surface'
+expect 0 surface turned.step --grid turned.csv --points 3x3
+expect 0 surface npl.json --grid whole.csv --points 3x3
+grep -v '^#' whole.csv >whole
+grep -v '^#' turned.csv | paste -d, whole - | awk -F, '
+	NR == 1 { wide = NF / 2; next }
+	function off(a, b) { return (a - b) ^ 2 > 1e-28 }
+	off($3, $(wide + 3)) || off(-$5, $(wide + 4)) || off($4, $(wide + 5)) { bad++ }
+	END { exit bad || NR != 10 }' || fail 'x:90 does not take y to z'
+rm turned.step back.json turned.csv whole.csv whole
+for turn in '' x x: x:a x:9z w:90 90 x:inf; do
+	refuses 2 "--turn: found '$turn'" npl.igs x.json --turn "$turn"
+done
 refuses 2 "--surface: found '0'" npl.igs x.json --surface 0
 refuses 2 "--surface: found '2'" npl.igs x.json --surface 2
 refuses 2 "--surface: found 'hull'" npl.igs x.json --surface hull

@@ -9,7 +9,7 @@ cd place || exit 1
 expect 0 surface --help
 prints '^usage: batten surface'
 prints '^example:'
-for option in net order out rounded corrections grid points threads max-memory json quiet; do
+for option in net order out rounded corrections grid contours at points threads max-memory json quiet; do
 	prints "^  --$option"
 done
 expect 0 --help
@@ -56,6 +56,18 @@ holds 'y' 'y - 0.8 < 1e-12 && y - 0.8 > -1e-12' y="$(column y_m 13)"
 expect 0 surface wigley.json --grid grid.json
 json_is_valid grid.json || fail 'grid.json is no JSON'
 
+# Lines: a waterline of the Wigley hull, a section, and K = 0, which has two arms below the deck.
+expect 0 surface wigley.json --contours lines.csv --at z=0.26,x=5,gauss=0 --points 11x7
+tail -n +4 lines.csv | awk -F, '
+	function off(a, b) { return a - b > 1e-12 || b - a > 1e-12 }
+	{ n[$1]++; s = 1 - $7 / 8; d = 1 - $9; y = 0.8 * (1 - s * s) * (1 - d * d); q = d * d }
+	off($8, y) || ($1 == "z" && off($9, 0.26)) || ($1 == "x" && off($7, 5)) { bad++ }
+	$1 == "gauss" && (q * (1 + 3 * s * s) - (1 - s * s)) ^ 2 > 1e-18 { bad++ }
+	END { exit bad || n["z"] < 11 || n["x"] != 7 || n["gauss"] < 20 }' ||
+	fail 'lines are not where they belong'
+expect 0 surface "$hull" --net 3x3 --order 3x3 --contours lines.json --at isophote=0.9
+json_is_valid lines.json || fail 'lines.json is no JSON'
+
 # Without --out nothing is written.
 before=$(state_of .)
 expect 0 surface "$hulls/npl_parent.csv" --net 13x13 --json
@@ -82,8 +94,13 @@ for net in 3 3x x3 3x3x3 axb -3x3 3X3 '' 12345x3; do
 	refuses 2 "--net: found '$net'" "$hull" --net "$net"
 done
 refuses 2 'only --grid' wigley.json --net 3x3 --grid g.csv
-refuses 2 '--grid FILE was expected' wigley.json
-refuses 2 '--grid FILE was expected' "$hull" --net 3x3 --points 5x5
+refuses 2 '--grid FILE or --contours FILE was expected' wigley.json
+refuses 2 '--grid FILE or --contours FILE was expected with it' "$hull" --net 3x3 --points 5x5
+refuses 2 'expected together' wigley.json --contours l.csv
+refuses 2 'expected together' wigley.json --at z=1 --grid g.csv
+for list in '' z z= z=x z=1, ,z=1 =1 w=1 z=nan z=1x; do
+	refuses 2 "--at: found '$list'" wigley.json --contours l.csv --at "$list"
+done
 refuses 2 "--points: found '1x5'" wigley.json --grid g.csv --points 1x5
 refuses 2 'g.txt' wigley.json --grid g.txt
 refuses 6 'none.json' none.json --grid g.csv

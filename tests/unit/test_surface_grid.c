@@ -229,6 +229,12 @@ static void test_sphere(void **state)
 		assert_near(hypot(hypot(at[0], at[1]), at[2]), 5.0, 1e-14, 0.0);
 		assert_near(at[BATTEN_SURFACE_VALUE_gauss], 0.04, 1e-12, 0.0);
 		assert_near(fabs(at[BATTEN_SURFACE_VALUE_mean]), 0.2, 1e-12, 0.0);
+		/* Points off it along the outward normal lie on a sphere too (Letcher 4.13). */
+		const double off = at[BATTEN_SURFACE_VALUE_mean] < 0.0 ? 0.7 : -0.7;
+		const double *normal = at + BATTEN_SURFACE_VALUE_normal_x;
+		assert_near(
+			hypot(hypot(at[0] + off * normal[0], at[1] + off * normal[1]), at[2] + off * normal[2]),
+			5.7, 1e-13, 0.0);
 	}
 	for (int f32 = 0; f32 < 2; f32++)
 		for (int n = 0; n < 11; n++) {

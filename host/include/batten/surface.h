@@ -88,6 +88,11 @@ BATTEN_API void batten_surface_reverse(batten_surface *surface, batten_direction
 BATTEN_API batten_status batten_surface_map(batten_surface *surface, const double matrix[9],
                                             const double shift_m[3]);
 
+/* The matrix, by rows, that turns by an angle about an axis of any length, counterclockwise to who looks
+ * against it (Letcher 2.3): about x it turns y to z. Errors: USAGE (not finite, an axis of 0). */
+BATTEN_API batten_status batten_rotation(batten_context *context, const double axis[3],
+                                         double angle_rad, double out[9]);
+
 /* The image in the centreplane y = 0: starboard from port. u then runs the other way, so that the
  * normal keeps its side. */
 BATTEN_API void batten_surface_mirror(batten_surface *surface);
@@ -299,6 +304,33 @@ BATTEN_API batten_status batten_surface_grid_batch_float(
 	batten_context *context, size_t count, const batten_surface *const *surfaces,
 	const batten_surface_samples *samples, const batten_surface_batch_options *options,
 	float *values, uint8_t *singular, batten_run *run);
+
+/* Lines on a surface along which one of its values has a level (Letcher 4.19): sections, waterlines and
+ * buttocks are those of x, z and y, lines of highlights those of the isophote value. */
+typedef struct batten_contours batten_contours;
+
+/* One of them; the arrays are borrowed. */
+typedef struct batten_contour {
+	size_t count;           /* points; 2 or more but where a line has one */
+	bool closed;            /* the last point is joined to the first, which is not repeated */
+	const double *u, *v;    /* [count] */
+	const double *points_m; /* [count][3] */
+} batten_contour;
+
+/* Finds them over a mesh of at least 2 x 2 parameters in ascending order. Points lie where lines cross
+ * those of the mesh, on the surface and at the level to its rounding; what happens between two lines of the
+ * mesh is not seen. A point at the level counts as above it, so that lines that only touch the level are
+ * not found. Lines end at the edges of the mesh and in its cells with a corner that has no normal, where
+ * the value needs one. Light is from port. Errors: USAGE, MEMORY. */
+BATTEN_API batten_status batten_surface_contour(batten_context *context,
+                                                const batten_surface *surface,
+                                                batten_surface_value value, double level,
+                                                const batten_surface_samples *samples,
+                                                batten_contours **out);
+BATTEN_API void batten_contours_destroy(batten_contours *contours);
+BATTEN_API size_t batten_contours_count(const batten_contours *contours);
+/* Empty beyond the count. */
+BATTEN_API batten_contour batten_contours_at(const batten_contours *contours, size_t i);
 
 /* Integrals over a whole surface (thesis 4.4, Letcher 4.5; Moreton and Sequin 1992); points where the
  * normal does not exist count nothing. Principal directions, and so the variation of curvature along
