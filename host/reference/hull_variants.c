@@ -8,8 +8,13 @@
 #include "shared/dialect.h"
 
 /* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too. */
+ * times slower with the same result. All is inlined into one function for each, formulas too; not
+ * where a sanitizer's checks make that function a burden to its compiler. */
+#ifdef BATTEN_SANITIZED
+#define INLINED static inline
+#else
 #define INLINED static inline __attribute__((always_inline))
+#endif
 #undef SHARED_FUNCTION
 #define SHARED_FUNCTION INLINED
 #include "shared/variants_course.h"

@@ -21,7 +21,6 @@ static void test_lanes(void **state)
 	(void)state;
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING, false },
-		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING, false },
 		{ 0, BATTEN_F64, 16, 1, false, GRID_BENDING, false },
 		{ 0, BATTEN_F32, 8, 1, false, GRID_BENDING, false },
 	};
@@ -33,7 +32,6 @@ static void test_work_groups(void **state)
 	(void)state;
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING, false },
-		{ 0, BATTEN_F64, 1, 64, false, GRID_BENDING, false },
 		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false },
 		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false },
 	};
@@ -45,7 +43,6 @@ static void test_global_state(void **state)
 	(void)state;
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, false },
-		{ 0, BATTEN_F64, 1, 16, true, GRID_BENDING, false },
 		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);

@@ -499,7 +499,7 @@ static void refusals(void **state)
 
 static batten_status parse_and_measure(batten_context *context, void *user)
 {
-	static const char text[] = "# name: line\nx,y\n0,0\n1,1\n2,0\n3,2\n4,1\n";
+	static const char text[] = "# name: line\nx,y\n0,0\n1,1\n2,1.7\n3,2.1\n4,2.2\n";
 	batten_points *points = NULL;
 	batten_curve *curve = NULL;
 	batten_curve_measures measures;
