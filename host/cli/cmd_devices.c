@@ -123,13 +123,14 @@ static void report_test(size_t index, const batten_selftest *test, bool as_json,
 
 static batten_status test_device(batten_context *context, size_t index, bool as_json, json_t *list)
 {
-	batten_selftest tests[16];
+	enum { TESTS_MOST = 32 };
+	batten_selftest tests[TESTS_MOST];
 	size_t count = 0;
-	const batten_status status = batten_device_selftest(context, index, tests, 16, &count);
+	const batten_status status = batten_device_selftest(context, index, tests, TESTS_MOST, &count);
 	if (status != BATTEN_OK)
 		return cli_failure("selftest", context, status);
 	batten_status worst = BATTEN_OK;
-	for (size_t t = 0; t < count && t < 16; t++) {
+	for (size_t t = 0; t < count && t < TESTS_MOST; t++) {
 		report_test(index, &tests[t], as_json, list);
 		if (tests[t].result == BATTEN_SELFTEST_FAILED)
 			worst = BATTEN_KERNEL;
