@@ -280,6 +280,11 @@ batten_status fair_all(const fair_request *request, const char *folder)
 {
 	if (request->front)
 		return cli_usage("fair", "--front is about the search, found it with --method all");
+	/* The methods would each refuse it, when others have written already. */
+	if (request->iterations == 0 ||
+	    (request->iterations != UINT_MAX && request->iterations > BATTEN_ITERATIONS_MOST))
+		return cli_usage("fair", "--iterations: found %u, expected 1 to %d", request->iterations,
+		                 BATTEN_ITERATIONS_MOST);
 	attempt *attempts = calloc(METHOD_COUNT, sizeof *attempts);
 	if (!attempts) {
 		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));

@@ -124,6 +124,12 @@ static batten_status run_pass(batten_context *context, size_t count, const doubl
 	return status;
 }
 
+/* Lines need no name. */
+static const char *after_name(const batten_points *points)
+{
+	return *batten_points_name(points) ? ": " : "";
+}
+
 static batten_status check_options(batten_context *context, const batten_points *points,
                                    const batten_line_options *o)
 {
@@ -131,12 +137,12 @@ static batten_status check_options(batten_context *context, const batten_points 
 		return batten_fail(context, BATTEN_USAGE, "line options of another version of batten");
 	if (batten_points_dimension(points) != 2)
 		return batten_fail(context, BATTEN_USAGE,
-		                   "%s: a space curve: only lines x,y are faired, as y(x)",
-		                   batten_points_name(points));
+		                   "%s%sa space curve: only lines x,y are faired, as y(x)",
+		                   batten_points_name(points), after_name(points));
 	if (batten_points_count(points) < 3)
-		return batten_fail(context, BATTEN_USAGE,
-		                   "%s: a line of %zu points, expected 3 or more to fair it",
-		                   batten_points_name(points), batten_points_count(points));
+		return batten_fail(
+			context, BATTEN_USAGE, "%s%sa line of %zu points, expected 3 or more to fair it",
+			batten_points_name(points), after_name(points), batten_points_count(points));
 	const bool searched = o->method == BATTEN_METHOD_SEARCH;
 	if (!searched && (int)o->method < BATTEN_METHOD_FORWARD_APPROXIMATION)
 		return batten_fail(context, BATTEN_USAGE, "gross errors are those of hulls, not of a line");
@@ -159,9 +165,10 @@ static batten_status take_apart(batten_context *context, const batten_points *po
 		y[i] = m[2 * i + 1];
 		if (i > 0 && !(x[i] - x[i - 1] >= HULL_SMALLEST_STEP_M))
 			return batten_fail(context, BATTEN_INPUT,
-			                   "%s: points %zu and %zu: x goes from %g to %g m, expected x to "
+			                   "%s%spoints %zu and %zu: x goes from %g to %g m, expected x to "
 			                   "grow: a line is faired as y(x)",
-			                   batten_points_name(points), i, i + 1, x[i - 1], x[i]);
+			                   batten_points_name(points), after_name(points), i, i + 1, x[i - 1],
+			                   x[i]);
 	}
 	return BATTEN_OK;
 }

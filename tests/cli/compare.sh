@@ -65,7 +65,12 @@ says "found '1000000000'"
 printf 'x,y\n0,0\n1,1\n1,1\n2,3\n3,3\n' >coincident.csv
 expect 3 curve coincident.csv --method inverse
 says 'coincident.csv:4:1: found the point before it again'
+for n in 0 10001; do
+	expect 2 fair "$hulls/wigley.csv" --method all --iterations $n --out none
+	says "found $n, expected 1 to 10000"
+	[ ! -e none ] || fail "--method all --iterations $n: something is written"
+done
 printf 'x,y\n0,0\n1,1\n' >two.csv
 expect 2 curve two.csv --method inverse
-says 'a line of 2 points'
+says 'curve: a line of 2 points, expected 3'
 finish
