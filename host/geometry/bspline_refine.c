@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-batten_status bspline_rows_allocate(batten_context *context, struct bspline_rows *out)
+/* Memory for the knots and the rows of out->order, count and width. Errors: MEMORY. */
+static batten_status allocate_rows(batten_context *context, struct bspline_rows *out)
 {
 	out->rows = NULL;
 	out->knots = batten_allocate(context, out->count + out->order, sizeof *out->knots);
@@ -92,7 +93,7 @@ batten_status bspline_rows_insert(batten_context *context, const struct bspline_
 		                   order, times);
 	struct bspline_rows s = *from;
 	s.count += times;
-	batten_status status = bspline_rows_allocate(context, &s);
+	batten_status status = allocate_rows(context, &s);
 	if (status != BATTEN_OK)
 		return status;
 	s.count = from->count;
@@ -200,7 +201,7 @@ static batten_status elevate_once(batten_context *context, const struct bspline_
 	double *work = batten_allocate(context, s.order, s.width * sizeof *work);
 	if (!work)
 		return BATTEN_MEMORY;
-	batten_status status = bspline_rows_allocate(context, &s);
+	batten_status status = allocate_rows(context, &s);
 	if (status == BATTEN_OK) {
 		elevated_knots(from, s.knots);
 		for (size_t i = 0; i < s.count; i++)

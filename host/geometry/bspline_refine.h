@@ -12,8 +12,6 @@ struct bspline_rows {
 	double *knots, *rows;
 };
 
-/* Memory for the knots and the rows of out->order, count and width. Errors: MEMORY. */
-batten_status bspline_rows_allocate(batten_context *context, struct bspline_rows *out);
 void bspline_rows_release(batten_context *context, struct bspline_rows *rows);
 
 /* As bspline_curve_insert_knot, times >= 1; out gets what is new, from stays. */

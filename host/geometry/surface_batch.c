@@ -114,9 +114,11 @@ static batten_status check_size(const surface_plan *plan, const batten_surface_n
 	                   size, plan->precision == BATTEN_F64 ? "f64" : "f32");
 }
 
-batten_status surface_items_of(batten_context *context, size_t count,
-                               const batten_surface *const *surfaces, const surface_plan *plan,
-                               surface_item **out)
+/* What each surface has of its own; batten_release() the items. Errors: USAGE (numbers too large for
+ * the precision), MEMORY. */
+static batten_status make_items(batten_context *context, size_t count,
+                                const batten_surface *const *surfaces, const surface_plan *plan,
+                                surface_item **out)
 {
 	const double tables = largest_of_table(&plan->u) * largest_of_table(&plan->v);
 	batten_status status = BATTEN_OK;
@@ -191,7 +193,7 @@ static batten_status run_plan(surface_plan *plan, const batten_surface *const *s
                               batten_run *run)
 {
 	surface_item *items = NULL;
-	batten_status status = surface_items_of(plan->context, plan->count, surfaces, plan, &items);
+	batten_status status = make_items(plan->context, plan->count, surfaces, plan, &items);
 	plan->items = items;
 	if (status == BATTEN_OK)
 		status = surface_batch_run(plan, run);

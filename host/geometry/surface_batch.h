@@ -40,10 +40,4 @@ batten_status surface_samples_gauss(batten_context *context, size_t order, size_
                                     surface_samples *out);
 void surface_samples_release(batten_context *context, surface_samples *samples);
 
-/* What each surface has of its own; batten_release() the items. Errors: USAGE (numbers too large for
- * the precision), MEMORY. */
-batten_status surface_items_of(batten_context *context, size_t count,
-                               const batten_surface *const *surfaces, const surface_plan *plan,
-                               surface_item **out);
-
 #endif

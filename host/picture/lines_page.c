@@ -16,7 +16,8 @@ static const double label_size = 16.0;
 /* Rings drawn at most. */
 enum { RING_LIMIT = 200 };
 
-bool lines_page_room(double *last, double place, double gap)
+/* True when place is at least gap away from the last label; then it becomes the last. */
+static bool has_room(double *last, double place, double gap)
 {
 	if (fabs(place - *last) < gap)
 		return false;
@@ -68,7 +69,7 @@ static void draw_heights(const lines_page *page, const lines_plan *plan, double 
 		cairo_stroke(page->cairo);
 		char number[BATTEN_NUMBER_SIZE];
 		lines_page_number(hull->z_m[j], page->box.z_high - page->box.z_low, number, sizeof number);
-		if (lines_page_room(&last, y, 18.0))
+		if (has_room(&last, y, 18.0))
 			lines_page_text(page, left - 8.0, y + 5.5, label_size, PAPER_RIGHT, number);
 	}
 }
@@ -85,7 +86,7 @@ static void draw_stations(const lines_page *page, const lines_plan *plan, double
 		cairo_stroke(page->cairo);
 		char number[BATTEN_NUMBER_SIZE];
 		lines_page_number(hull->x_m[i], page->box.x_high - page->box.x_low, number, sizeof number);
-		if (lines_page_room(&last, x, 62.0))
+		if (has_room(&last, x, 62.0))
 			lines_page_text(page, x, bottom + 20.0, label_size, PAPER_CENTRE, number);
 	}
 }
@@ -149,7 +150,7 @@ static batten_status label_sections(const lines_page *page, bool fore)
 		if (status != BATTEN_OK)
 			return status;
 		double x = plan->origin_x + plan->across * ends.last_y_m;
-		if (!any || fabs(x - plan->origin_x) < 24.0 || !lines_page_room(&last, x, 62.0))
+		if (!any || fabs(x - plan->origin_x) < 24.0 || !has_room(&last, x, 62.0))
 			continue;
 		char number[BATTEN_NUMBER_SIZE];
 		lines_page_number(hull->x_m[i], page->box.x_high - page->box.x_low, number, sizeof number);
@@ -269,7 +270,7 @@ static void label_waterlines(const lines_page *page)
 	for (size_t j = 0; j < hull->waterline_count; j += page->waterline_stride) {
 		size_t node = j * hull->station_count + station;
 		double y = plan->origin_y - plan->up * hull->y_m[node];
-		if (hull->nodes[node] == BATTEN_NODE_OUTSIDE || !lines_page_room(&last, y, 24.0))
+		if (hull->nodes[node] == BATTEN_NODE_OUTSIDE || !has_room(&last, y, 24.0))
 			continue;
 		char number[BATTEN_NUMBER_SIZE];
 		char text[BATTEN_NUMBER_SIZE + 8];

@@ -42,8 +42,6 @@ void lines_page_draw_legend(const lines_page *page);
  * be compared. */
 bool lines_page_moved(const lines_page *page, size_t node);
 
-/* True when place is at least gap away from the last label; then it becomes the last. */
-bool lines_page_room(double *last, double place, double gap);
 /* A number in shortest form, rounded to a ten-thousandth of the first digit of extent. */
 void lines_page_number(double value_m, double extent_m, char *out, size_t size);
 void lines_page_text(const lines_page *page, double x, double y, double size, paper_anchor anchor,

@@ -94,11 +94,6 @@ void report_base64_i16(report_base64 *out, int16_t value)
 	put_bytes(out, (uint16_t)value, 2);
 }
 
-void report_base64_u32(report_base64 *out, uint32_t value)
-{
-	put_bytes(out, value, 4);
-}
-
 void report_base64_f32(report_base64 *out, float value)
 {
 	uint32_t bits;

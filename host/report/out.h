@@ -22,7 +22,6 @@ typedef struct report_base64 {
 } report_base64;
 void report_base64_u8(report_base64 *out, uint8_t value);
 void report_base64_i16(report_base64 *out, int16_t value);
-void report_base64_u32(report_base64 *out, uint32_t value);
 void report_base64_f32(report_base64 *out, float value);
 void report_base64_f64(report_base64 *out, double value);
 void report_base64_end(report_base64 *out);

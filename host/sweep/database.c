@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-batten_status database_fail(const sweep_database *database)
+/* The last error of the connection as a status: IO (in use by another program, the disk full, not to be
+ * written), INPUT (no database, damaged), MEMORY. */
+static batten_status failed(const sweep_database *database)
 {
 	batten_context *context = database->context;
 	const char *path = database->path;
@@ -46,7 +48,7 @@ batten_status database_open(batten_context *context, const char *path, database_
 	const int code = sqlite3_open_v2(path, &database.handle, flags[access] | SQLITE_OPEN_NOMUTEX,
 	                                 NULL);
 	if (code != SQLITE_OK) {
-		const batten_status status = database.handle ? database_fail(&database)
+		const batten_status status = database.handle ? failed(&database)
 		                                             : batten_fail_memory(context);
 		database_close(&database);
 		return status;
@@ -66,9 +68,8 @@ void database_close(sweep_database *database)
 
 batten_status database_run(const sweep_database *database, const char *sql)
 {
-	return sqlite3_exec(database->handle, sql, NULL, NULL, NULL) == SQLITE_OK
-	           ? BATTEN_OK
-	           : database_fail(database);
+	return sqlite3_exec(database->handle, sql, NULL, NULL, NULL) == SQLITE_OK ? BATTEN_OK
+	                                                                          : failed(database);
 }
 
 batten_status database_prepare(const sweep_database *database, sqlite3_stmt **out,
@@ -82,7 +83,7 @@ batten_status database_prepare(const sweep_database *database, sqlite3_stmt **ou
 		return batten_fail_memory(database->context);
 	const int code = sqlite3_prepare_v2(database->handle, sql, -1, out, NULL);
 	sqlite3_free(sql);
-	return code == SQLITE_OK ? BATTEN_OK : database_fail(database);
+	return code == SQLITE_OK ? BATTEN_OK : failed(database);
 }
 
 batten_status database_step(const sweep_database *database, sqlite3_stmt *statement, bool *row)
@@ -92,7 +93,7 @@ batten_status database_step(const sweep_database *database, sqlite3_stmt *statem
 	if (code == SQLITE_ROW)
 		return BATTEN_OK;
 	/* The error is that of the connection until the reset. */
-	const batten_status status = code == SQLITE_DONE ? BATTEN_OK : database_fail(database);
+	const batten_status status = code == SQLITE_DONE ? BATTEN_OK : failed(database);
 	(void)sqlite3_reset(statement);
 	return status;
 }

@@ -23,10 +23,6 @@ batten_status database_open(batten_context *context, const char *path, database_
                             sweep_database *out);
 void database_close(sweep_database *database);
 
-/* The last error of the connection as a status: IO (in use by another program, the disk full, not to be
- * written), INPUT (no database, damaged), MEMORY. */
-batten_status database_fail(const sweep_database *database);
-
 /* Runs statements without results. */
 batten_status database_run(const sweep_database *database, const char *sql);
 

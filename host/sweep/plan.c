@@ -246,9 +246,9 @@ batten_status sweep_plan_parse(batten_context *context, const char *file, const 
 	json_error_t error;
 	json_t *json = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
 	if (!json)
-		return batten_fail(context, BATTEN_INPUT, "%s:%d:%d: %s", file,
-		                   error.line > 0 ? error.line : 1, error.column > 0 ? error.column : 1,
-		                   error.text);
+		return batten_fail(
+			context, BATTEN_INPUT, "%s:%d:%d: %s; the JSON of a sweep's plan was expected", file,
+			error.line > 0 ? error.line : 1, error.column > 0 ? error.column : 1, error.text);
 	sweep_plan *plan = batten_allocate(context, 1, sizeof *plan);
 	if (!plan) {
 		json_decref(json);

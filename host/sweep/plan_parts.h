@@ -12,8 +12,6 @@ batten_status plan_take_file(sweep_plan *plan, const plan_source *source, const 
 /* "parameters" and "sampling". */
 batten_status plan_read_sampling(sweep_plan *plan, const plan_source *source,
                                  const plan_place *root);
-/* "parameters" alone: names, ranges, levels. */
-batten_status plan_read_parameters(sweep_plan *plan, const plan_place *root);
 /* Rows of a CSV file under a header of the parameters' names. */
 batten_status plan_read_rows(sweep_plan *plan, const plan_place *place, const char *text,
                              size_t length);

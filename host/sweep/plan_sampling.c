@@ -102,7 +102,8 @@ static batten_status read_parameter(const sweep_plan *plan, const plan_place *pl
 	return status == BATTEN_OK ? read_list(plan->context, &list, out) : status;
 }
 
-batten_status plan_read_parameters(sweep_plan *plan, const plan_place *root)
+/* "parameters" alone: names, ranges, levels. */
+static batten_status read_parameters(sweep_plan *plan, const plan_place *root)
 {
 	sweep_sampling *sampling = &plan->sampling;
 	const plan_place place = plan_member(root, "parameters");
@@ -181,7 +182,7 @@ static batten_status read_method(sweep_plan *plan, const plan_source *source,
 	if (status == BATTEN_OK && sampling->method == SAMPLING_ROWS)
 		return read_rows(plan, source, root, &file);
 	if (status == BATTEN_OK)
-		status = plan_read_parameters(plan, root);
+		status = read_parameters(plan, root);
 	if (status == BATTEN_OK)
 		status = counted ? read_count(plan, &count) : read_grid(plan, root);
 	return status;

@@ -24,7 +24,8 @@ static variation_half half_of(const struct spline *curve, const variation_span *
 		                     .parallel = fore ? span->parallel_fore : span->parallel_aft };
 }
 
-variation_halves variation_halves_of(const struct spline *curve, const variation_span *span)
+/* A curve is a spline over x; the ordinate amidships must be > 0. */
+static variation_halves halves_of(const struct spline *curve, const variation_span *span)
 {
 	variation_halves halves = { .aft = half_of(curve, span, false),
 		                        .fore = half_of(curve, span, true) };
@@ -159,7 +160,7 @@ static void find_body(variation_shift *shift)
 bool variation_shift_one_minus(const struct spline *curve, const variation_span *span,
                                const variation_change *change, variation_shift *out)
 {
-	const variation_halves halves = variation_halves_of(curve, span);
+	const variation_halves halves = halves_of(curve, span);
 	if (!(halves.aft.fullness < 1 && halves.fore.fullness < 1))
 		return false;
 	const struct lever aft = one_minus_lever(&halves.aft), fore = one_minus_lever(&halves.fore);
@@ -199,7 +200,7 @@ static variation_half_shift lackenby_half(const variation_half *half, double ful
 bool variation_shift_lackenby(const struct spline *curve, const variation_span *span,
                               const variation_change *change, variation_shift *out)
 {
-	const variation_halves halves = variation_halves_of(curve, span);
+	const variation_halves halves = halves_of(curve, span);
 	if (!(lackenby_room(&halves.aft) > 1e-9 && lackenby_room(&halves.fore) > 1e-9))
 		return false;
 	const struct lever aft = lackenby_lever(&halves.aft), fore = lackenby_lever(&halves.fore);
@@ -231,7 +232,7 @@ static variation_half_numbers half_numbers(const variation_half *half, double le
 bool variation_shift_numbers(const struct spline *curve, const variation_span *span, bool lackenby,
                              variation_numbers *out)
 {
-	const variation_halves halves = variation_halves_of(curve, span);
+	const variation_halves halves = halves_of(curve, span);
 	if (lackenby ? !(lackenby_room(&halves.aft) > 1e-9 && lackenby_room(&halves.fore) > 1e-9)
 	             : !(halves.aft.fullness < 1 && halves.fore.fullness < 1))
 		return false;

@@ -25,9 +25,6 @@ typedef struct variation_halves {
 	double centre;   /* of the whole curve, from amidships, + forward, in parts of a half length */
 } variation_halves;
 
-/* A curve is a spline over x; the ordinate amidships must be > 0. */
-variation_halves variation_halves_of(const struct spline *curve, const variation_span *span);
-
 /* dx = (1 - x)(constant + linear (x - p)) for p <= x <= 1, by parts of the half. */
 typedef struct variation_half_shift {
 	double parallel, constant, linear;

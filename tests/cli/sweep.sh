@@ -180,6 +180,8 @@ refuse()
 	says "$1"
 	[ -e no.db ] && fail "bad.json made a database: $1"
 }
+cp "$hulls/wigley.csv" bad.json
+refuse "bad.json:1:1: .*; the JSON of a sweep's plan was expected"
 plan bad.json 10 '"fairs": {}'
 refuse 'bad.json: \$.fairs: unknown key, expected batten_plan, name, '
 sed 's/"from": -4/"from": 5/' a.json >bad.json

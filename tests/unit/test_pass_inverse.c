@@ -138,7 +138,7 @@ static void solve(long double a[UNKNOWNS][UNKNOWNS + 1], long double *out)
 static void check(batten_context *context, const table *t, const size_t orders[2])
 {
 	static long double a[UNKNOWNS][UNKNOWNS + 1];
-	long double change[NZ][NX], moved[UNKNOWNS];
+	long double change[NZ][NX] = { { 0 } }, moved[UNKNOWNS];
 	double found[NZ][NX];
 	memset(a, 0, sizeof a);
 	for (int along_x = 0; along_x < 2; along_x++) {
