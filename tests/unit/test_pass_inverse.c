@@ -33,7 +33,7 @@ static table make_table(void)
 static void smooth(size_t order, size_t count, const double *along, long double *values,
                    size_t step)
 {
-	double knots[KNOTS_MOST], poles[2 * NX];
+	double knots[KNOTS_MOST] = { 0 }, poles[2 * NX];
 	const size_t last = count - order + 1;
 	for (size_t k = 0; k < count + order; k++)
 		knots[k] = k < order ? 0 : k - order + 1 < last ? (double)(k - order + 1) : (double)last;
