@@ -81,6 +81,21 @@ cmp -s npl.json chosen.json || fail '--surface 1 is another surface'
 expect 0 convert npl.igs chosen.json --surface 'NPL parent hull'
 cmp -s npl.json chosen.json || fail '--surface by name is another surface'
 rm chosen.json
+# Several files in one, in their order, under their names; each comes out as it went in.
+expect 0 surface "$hulls/wigley.csv" --net 4x4 --out wigley.json
+expect 0 convert npl.json wigley.json both.step
+prints '^npl.json, wigley.json -> both.step: 2 of 2 surfaces'
+expect 0 convert both.step npl.stp both.igs --json
+cp "$out" "$folder/.both"
+json_is_valid "$folder/.both" || fail 'the report is no JSON'
+grep -q '"count": 3' "$folder/.both" || fail 'three surfaces are not reported'
+expect 0 convert both.igs chosen.json --surface 2
+cmp -s wigley.json chosen.json || fail 'the second surface of several is another one'
+refuses 2 "--surface: found 'NPL parent hull'" both.igs x.json --surface 'NPL parent hull'
+refuses 2 '3 surfaces, a .json file holds one' both.igs x.json
+refuses 2 '2 surfaces, a .json file holds one' npl.json wigley.json x.json
+refuses 6 'none.igs' npl.json none.igs x.step
+rm chosen.json both.step both.igs wigley.json
 # A quarter turn and back loses nothing; x takes y to z.
 expect 0 convert npl.igs turned.step --turn x:90
 expect 0 convert turned.step back.json --turn x:-90
