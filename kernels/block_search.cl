@@ -14,12 +14,13 @@
 #include "shared/block_lanes.h"
 #include "shared/dialect.h"
 
-/* stencils: STENCIL_SIZE a line, then a node of a line. inputs, settings, outcomes: as block_memory
+/* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line about its
+ * hats, if there are any. inputs, settings, outcomes: as block_memory
  * has them. Group g works searches g * share up to count; turns[g]: how many iterations its lanes went
- * through. room: per group BLOCK_STATE_COUNT arrays and (local size + 2) lines of probes. sums:
- * BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
-kernel void block_search(int lines, int length, int iteration_limit, int count, int share,
-                         global const scalar *stencils, global scalar *inputs,
+ * through. room: per group BLOCK_STATE_COUNT arrays, `slots` lines of probes (local size + 2; with hats
+ * lines + 2) and BLOCK_HAT_NUMBERS of hats. sums: BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
+kernel void block_search(int lines, int length, int hats, int slots, int iteration_limit, int count,
+                         int share, global const scalar *stencils, global scalar *inputs,
                          global const scalar *settings, global scalar *outcomes, global int *turns,
                          STATE real *room, local real *sums, local real *lanes)
 {
@@ -28,16 +29,19 @@ kernel void block_search(int lines, int length, int iteration_limit, int count, 
 	s.lines = lines;
 	s.length = length;
 	s.nodes = lines * length;
-	s.slots = WORK_ITEMS + 2;
+	s.hats = hats;
+	s.slots = slots;
 	s.analytic = BLOCK_ANALYTIC;
 	s.across = stencils;
 	s.along = stencils + lines * STENCIL_SIZE;
+	s.hat_values = s.along + length * STENCIL_SIZE;
 	s.arrays = room;
 #if defined(STATE_IS_GLOBAL)
-	s.arrays += (size_t)group * ((size_t)BLOCK_STATE_COUNT * (size_t)s.nodes +
-	                             (size_t)BLOCK_PROBE_COUNT * (size_t)(s.slots * length));
+	s.arrays += (size_t)group * BLOCK_STATE_NUMBERS((size_t)lines, (size_t)length, (size_t)hats,
+	                                                (size_t)slots);
 #endif
 	s.ring = s.arrays + BLOCK_STATE_COUNT * s.nodes;
+	s.hat_rows = s.ring + BLOCK_PROBE_COUNT * (slots * length);
 	s.sums = sums;
 	block_memory m;
 	m.inputs = inputs;

@@ -1,5 +1,6 @@
 #include "batch/block_engine.h"
 
+#include "batch/block_hats.h"
 #include "batch/block_pack.h"
 #include "batch/block_selftest.h"
 #include "batch/search_pack.h"
@@ -12,12 +13,17 @@
  * that come free take the next search, so the more of them, the less do lanes stand idle. */
 enum { BLOCK_BYTES = 8 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
 
+/* Lines of probes that are kept: all where there are hats. */
+static size_t slots_of(const search_plan *plan, size_t work_group, size_t hats)
+{
+	return (hats > 0 ? block_lines_of(plan).lines : work_group) + 2;
+}
+
 /* Numbers of a group's state in one lane. */
-static size_t state_numbers(const search_plan *plan, size_t work_group)
+static size_t state_numbers(const search_plan *plan, size_t work_group, size_t hats)
 {
 	const block_lines_shape shape = block_lines_of(plan);
-	return BLOCK_STATE_COUNT * shape.lines * shape.length +
-	       BLOCK_PROBE_COUNT * (work_group + 2) * shape.length;
+	return BLOCK_STATE_NUMBERS(shape.lines, shape.length, hats, slots_of(plan, work_group, hats));
 }
 
 static size_t local_numbers(const search_plan *plan)
@@ -40,7 +46,8 @@ batten_status block_engine_open(const search_plan *plan, size_t index, const bat
 		                           .lanes = plan->options.lanes,
 		                           .work_group = plan->options.work_group };
 	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
-	const size_t numbers = state_numbers(plan, recipe.work_group) + local_numbers(plan);
+	const size_t numbers = state_numbers(plan, recipe.work_group, block_hat_count(plan)) +
+	                       local_numbers(plan);
 	const bool global = numbers * recipe.lanes * batch_engine_number_size(recipe.precision) >
 	                    device->local_memory_bytes;
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
@@ -73,6 +80,7 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 typedef struct block {
 	const search_plan *plan;
 	size_t count, share, groups;
+	size_t hats;          /* of a line */
 	size_t number, nodes; /* bytes of a number; numbers of an array */
 	size_t input_bytes;
 	bool direct; /* the device works in the host's memory */
@@ -114,12 +122,13 @@ static batten_status block_allocate(batch_engine *engine, block *b)
 	                                                                          : BATTEN_MEMORY;
 }
 
-static void block_fill(const batten_search_problem *problems, const size_t *which, block *b)
+static batten_status block_fill(const batten_search_problem *problems, const size_t *which,
+                                block *b)
 {
-	block_pack_stencils(b->plan, b->stencils);
 	for (size_t i = 0; i < b->count; i++)
 		block_pack(b->plan, &problems[which[i]], (char *)b->inputs + i * b->input_bytes,
 		           (char *)b->settings + i * BLOCK_SETTING_COUNT * b->number);
+	return block_pack_stencils(b->plan, b->stencils);
 }
 
 static bool is_global(const batch_engine *engine)
@@ -129,8 +138,8 @@ static bool is_global(const batch_engine *engine)
 
 static batten_status block_upload(batch_engine *engine, block *b)
 {
-	const size_t state = state_numbers(b->plan, engine->recipe.work_group) * engine->recipe.lanes *
-	                     b->number * b->groups;
+	const size_t state = state_numbers(b->plan, engine->recipe.work_group, b->hats) *
+	                     engine->recipe.lanes * b->number * b->groups;
 	const struct {
 		device_buffer **buffer;
 		size_t size;
@@ -159,8 +168,12 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	const block_lines_shape shape = block_lines_of(b->plan);
 	const size_t lane_bytes = engine->recipe.lanes * b->number;
 	const size_t group = engine->recipe.work_group;
-	const int32_t numbers[] = { (int32_t)shape.lines, (int32_t)shape.length,
-		                        (int32_t)b->plan->options.iteration_limit, (int32_t)b->count,
+	const int32_t numbers[] = { (int32_t)shape.lines,
+		                        (int32_t)shape.length,
+		                        (int32_t)b->hats,
+		                        (int32_t)slots_of(b->plan, group, b->hats),
+		                        (int32_t)b->plan->options.iteration_limit,
+		                        (int32_t)b->count,
 		                        (int32_t)b->share };
 	const device_argument arguments[] = {
 		{ .size = sizeof(int32_t), .value = &numbers[0] },
@@ -168,13 +181,15 @@ static batten_status block_launch(batch_engine *engine, block *b)
 		{ .size = sizeof(int32_t), .value = &numbers[2] },
 		{ .size = sizeof(int32_t), .value = &numbers[3] },
 		{ .size = sizeof(int32_t), .value = &numbers[4] },
+		{ .size = sizeof(int32_t), .value = &numbers[5] },
+		{ .size = sizeof(int32_t), .value = &numbers[6] },
 		{ .buffer = b->stencils_on },
 		{ .buffer = b->inputs_on },
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcomes_on },
 		{ .buffer = b->turns_on },
 		{ .buffer = b->state_on,
-		  .size = b->state_on ? 0 : state_numbers(b->plan, group) * lane_bytes },
+		  .size = b->state_on ? 0 : state_numbers(b->plan, group, b->hats) * lane_bytes },
 		{ .size = BLOCK_SUM_COUNT * shape.lines * lane_bytes },
 		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
 	};
@@ -191,16 +206,19 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	return status;
 }
 
-batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
+/* Searches that all want hats, or none of them. */
+static batten_status run_alike(batch_engine *engine, const search_plan *plan,
                                const batten_search_problem *problems, const size_t *which,
                                size_t count, double *y_m, batten_search_result *results,
                                uint64_t *lane_turns)
 {
-	block b = { .plan = plan, .count = count };
+	const bool wants = block_wants_hats(plan, &problems[which[0]]);
+	block b = { .plan = plan, .count = count, .hats = wants ? block_hat_count(plan) : 0 };
 	batten_status status = block_allocate(engine, &b);
 	if (status == BATTEN_OK) {
-		block_fill(problems, which, &b);
-		status = block_upload(engine, &b);
+		status = block_fill(problems, which, &b);
+		if (status == BATTEN_OK)
+			status = block_upload(engine, &b);
 		if (status == BATTEN_OK)
 			status = block_launch(engine, &b);
 		if (status != BATTEN_OK)
@@ -213,5 +231,21 @@ batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
 	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)
 		*lane_turns += (uint64_t)b.turns[g] * engine->recipe.lanes;
 	block_release(engine, &b);
+	return status;
+}
+
+batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
+                               const batten_search_problem *problems, const size_t *which,
+                               size_t count, double *y_m, batten_search_result *results,
+                               uint64_t *lane_turns)
+{
+	batten_status status = BATTEN_OK;
+	for (size_t first = 0, last = 0; first < count && status == BATTEN_OK; first = last) {
+		const bool wants = block_wants_hats(plan, &problems[which[first]]);
+		while (last < count && block_wants_hats(plan, &problems[which[last]]) == wants)
+			last++;
+		status = run_alike(engine, plan, problems, which + first, last - first, y_m, results,
+		                   lane_turns);
+	}
 	return status;
 }

@@ -1,5 +1,6 @@
 #include "batch/block_pack.h"
 
+#include "batch/block_hats.h"
 #include "batch/search_pack.h"
 #include "batch/search_result.h"
 
@@ -33,16 +34,25 @@ static void put_apart(const search_plan *plan, void *numbers, size_t at, size_t 
 
 size_t block_stencil_count(const search_plan *plan)
 {
-	return (plan->station_count + plan->waterline_count) * STENCIL_SIZE;
+	return (plan->station_count + plan->waterline_count) * STENCIL_SIZE +
+	       block_lines_of(plan).length * BLOCK_HAT_SIZE;
 }
 
-void block_pack_stencils(const search_plan *plan, void *stencils)
+batten_status block_pack_stencils(const search_plan *plan, void *stencils)
 {
-	const bool along_x = block_lines_of(plan).along_x;
+	const block_lines_shape shape = block_lines_of(plan);
+	const bool along_x = shape.along_x;
+	double *hats = batten_allocate(plan->context, shape.length, BLOCK_HAT_SIZE * sizeof *hats);
+	if (!hats)
+		return BATTEN_MEMORY;
 	const size_t x = plan->station_count * STENCIL_SIZE;
 	const size_t z = plan->waterline_count * STENCIL_SIZE;
 	put_apart(plan, stencils, along_x ? z : 0, 1, plan->stencil_x, x);
 	put_apart(plan, stencils, along_x ? 0 : x, 1, plan->stencil_z, z);
+	block_hat_values(plan, hats);
+	put_apart(plan, stencils, x + z, 1, hats, shape.length * BLOCK_HAT_SIZE);
+	batten_release(plan->context, hats);
+	return BATTEN_OK;
 }
 
 /* Numbers of neighbouring nodes of a waterline, in the order of BLOCK_INPUT_; so many at a time. */

@@ -13,9 +13,10 @@ typedef struct block_lines_shape {
 } block_lines_shape;
 block_lines_shape block_lines_of(const search_plan *plan);
 
-/* Stencils of the lines, then of the nodes of a line: (lines + length) * STENCIL_SIZE numbers. */
+/* Stencils of the lines, then of the nodes of a line, then of their hats: (lines + length) * STENCIL_SIZE
+ * + length * BLOCK_HAT_SIZE numbers. Errors: MEMORY. */
 size_t block_stencil_count(const search_plan *plan);
-void block_pack_stencils(const search_plan *plan, void *stencils);
+batten_status block_pack_stencils(const search_plan *plan, void *stencils);
 
 /* input [BLOCK_INPUT_COUNT][nodes] and settings [BLOCK_SETTING_COUNT] of a search. */
 void block_pack(const search_plan *plan, const batten_search_problem *problem, void *input,

@@ -1,5 +1,6 @@
 #include "batch/block_reference.h"
 
+#include "batch/block_hats.h"
 #include "batch/search_pack.h"
 #include "reference/block_search.h"
 
@@ -11,15 +12,17 @@ batten_status block_reference_create(const search_plan *plan, block_reference *o
 	block_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, block_stencil_count(plan), size);
 	search.input = batten_allocate(plan->context, nodes, BLOCK_INPUT_COUNT * size);
-	search.scratch = batten_allocate(plan->context,
-	                                 REFERENCE_BLOCK_SCRATCH(shape.lines, shape.length), size);
-	if (!search.stencils || !search.input || !search.scratch) {
+	search.scratch = batten_allocate(
+		plan->context, REFERENCE_BLOCK_SCRATCH(shape.lines, shape.length, block_hat_count(plan)),
+		size);
+	batten_status status = search.stencils && search.input && search.scratch
+	                           ? block_pack_stencils(plan, search.stencils)
+	                           : BATTEN_MEMORY;
+	if (status == BATTEN_OK)
+		*out = search;
+	else
 		block_reference_release(&search);
-		return BATTEN_MEMORY;
-	}
-	block_pack_stencils(plan, search.stencils);
-	*out = search;
-	return BATTEN_OK;
+	return status;
 }
 
 void block_reference_release(block_reference *search)
@@ -40,6 +43,7 @@ void block_reference_run(block_reference *search, const batten_search_problem *p
 	const reference_block_search shared = {
 		.lines = (int)shape.lines,
 		.length = (int)shape.length,
+		.hats = block_wants_hats(plan, problem) ? (int)block_hat_count(plan) : 0,
 		.iteration_limit = (int)plan->options.iteration_limit,
 		.analytic = plan->options.analytic_slopes,
 	};

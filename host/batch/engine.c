@@ -41,8 +41,9 @@ static batten_status build(batch_engine *e)
 	const batch_engine_recipe *recipe = &e->recipe;
 	const batten_device *device = batch_engine_device(e);
 	char options[256];
-	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d -DBATTEN_LANES=%u %s%s",
-	               recipe->precision == BATTEN_F64, recipe->lanes, recipe->options,
+	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d -DBATTEN_LANES=%u %s%s%s",
+	               recipe->precision == BATTEN_F64, recipe->lanes,
+	               recipe->work_group == 1 ? "-DBATTEN_ALONE " : "", recipe->options,
 	               recipe->precision == BATTEN_F32 && device->has_correct_f32
 	                   ? " -cl-fp32-correctly-rounded-divide-sqrt"
 	                   : "");

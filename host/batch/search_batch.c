@@ -10,30 +10,16 @@ static search_algorithm_run *const algorithms[] = {
 	[BATTEN_ALGORITHM_MULTILEVEL] = multilevel_batch_run,
 	[BATTEN_ALGORITHM_BLOCK] = block_batch_run,
 };
-enum { STRETCHED = 2 };
 enum { ALGORITHM_COUNT = sizeof algorithms / sizeof algorithms[0] };
 
-/* Whether the mean spacings differ so much that lines along the finer one hold most of the curvature of
- * the objective: the block search lives on that. */
-static bool is_stretched(const batten_grid *grid)
-{
-	const size_t i = grid->station_count - 1;
-	const size_t k = grid->waterline_count - 1;
-	const double x = (grid->x_m[i] - grid->x_m[0]) / (double)i;
-	const double z = (grid->z_m[k] - grid->z_m[0]) / (double)k;
-	return x >= STRETCHED * z || z >= STRETCHED * x;
-}
-
-/* What runs the batch, whose grid is checked; BATTEN_ALGORITHM_AUTO in the options is replaced by what
- * it takes. */
-static batten_status choose(batten_context *context, const batten_grid *grid,
-                            batten_search_options *options, search_algorithm_run **run)
+/* What runs the batch; BATTEN_ALGORITHM_AUTO in the options is replaced by what it takes. */
+static batten_status choose(batten_context *context, batten_search_options *options,
+                            search_algorithm_run **run)
 {
 	const bool plain = options->fairness == BATTEN_FAIRNESS_BENDING &&
 	                   options->longitudinal_weight == 1.0 && options->transverse_weight == 1.0;
 	if (options->algorithm == BATTEN_ALGORITHM_AUTO)
-		options->algorithm = plain && is_stretched(grid) ? BATTEN_ALGORITHM_BLOCK
-		                                                 : BATTEN_ALGORITHM_MULTILEVEL;
+		options->algorithm = plain ? BATTEN_ALGORITHM_BLOCK : BATTEN_ALGORITHM_MULTILEVEL;
 	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
 	if (!*run)
 		return batten_fail(context, BATTEN_USAGE,
@@ -94,7 +80,7 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 	if (status == BATTEN_OK)
 		status = search_grid_check(context, grid);
 	if (status == BATTEN_OK)
-		status = choose(context, grid, &chosen, &algorithm);
+		status = choose(context, &chosen, &algorithm);
 	if (status != BATTEN_OK)
 		return status;
 	const search_call call = { context, grid, count, problems, &chosen, y_m, results };

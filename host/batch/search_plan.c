@@ -224,13 +224,18 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 	plan->station_count = grid->station_count;
 	plan->waterline_count = grid->waterline_count;
 	plan->node_count = (grid->station_count + 2) * (grid->waterline_count + 2);
+	plan->x_m = batten_allocate(context, grid->station_count, sizeof(double));
+	plan->z_m = batten_allocate(context, grid->waterline_count, sizeof(double));
 	plan->stencil_x = batten_allocate(context, grid->station_count, STENCIL_SIZE * sizeof(double));
 	plan->stencil_z = batten_allocate(context, grid->waterline_count,
 	                                  STENCIL_SIZE * sizeof(double));
 	plan->cell_x = batten_allocate(context, grid->station_count, sizeof(double));
 	plan->cell_z = batten_allocate(context, grid->waterline_count, sizeof(double));
-	if (!plan->stencil_x || !plan->stencil_z || !plan->cell_x || !plan->cell_z)
+	if (!plan->x_m || !plan->z_m || !plan->stencil_x || !plan->stencil_z || !plan->cell_x ||
+	    !plan->cell_z)
 		return BATTEN_MEMORY;
+	memcpy(plan->x_m, grid->x_m, grid->station_count * sizeof(double));
+	memcpy(plan->z_m, grid->z_m, grid->waterline_count * sizeof(double));
 	lay_out_direction(grid->x_m, grid->station_count, plan->stencil_x, plan->cell_x);
 	lay_out_direction(grid->z_m, grid->waterline_count, plan->stencil_z, plan->cell_z);
 	batten_status status = typical_spacing(context, grid->x_m, grid->station_count,
@@ -314,6 +319,8 @@ void search_plan_destroy(search_plan *plan)
 	if (!plan)
 		return;
 	batten_context *context = plan->context;
+	batten_release(context, plan->x_m);
+	batten_release(context, plan->z_m);
 	batten_release(context, plan->stencil_x);
 	batten_release(context, plan->stencil_z);
 	batten_release(context, plan->cell_x);

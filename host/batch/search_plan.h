@@ -22,6 +22,7 @@ typedef struct search_plan {
 	batten_context *context;
 	size_t station_count, waterline_count,
 		node_count;                /* node_count with a ring of one node around */
+	double *x_m, *z_m;             /* coordinates */
 	double *stencil_x, *stencil_z; /* STENCIL_SIZE a station, a waterline */
 	double *cell_x, *cell_z;       /* half-sum spacings */
 	double spacing_x, spacing_z;   /* medians */

@@ -5,15 +5,18 @@
 
 typedef struct reference_block_search {
 	int lines, length, iteration_limit;
+	int hats;     /* of a line; 0: none */
 	int analytic; /* slopes of the integrand by formula, not by probes */
 } reference_block_search;
 
+/* Lines of probes that are kept: all where there are hats. */
+#define REFERENCE_BLOCK_SLOTS(lines, hats) ((hats) > 0 ? (lines) + 2 : 3)
 /* Numbers of scratch that a search takes. */
-#define REFERENCE_BLOCK_SCRATCH(lines, length)                                                     \
-	((size_t)BLOCK_STATE_COUNT * (lines) * (length) + (size_t)3 * (length)*BLOCK_PROBE_COUNT +     \
-	 (size_t)BLOCK_SUM_COUNT * (lines))
+#define REFERENCE_BLOCK_SCRATCH(lines, length, hats)                                               \
+	(BLOCK_STATE_NUMBERS(lines, length, hats, REFERENCE_BLOCK_SLOTS(lines, hats)) +                \
+	 BLOCK_SUM_COUNT * (lines))
 
-/* stencils: STENCIL_SIZE a line, then a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings
+/* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings
  * [BLOCK_SETTING_COUNT], outcome [BLOCK_OUTCOME_COUNT]. The end of the search takes the place of its
  * start. */
 void reference_block_search_f64(const reference_block_search *shared, const double *stencils,

@@ -11,19 +11,24 @@
 void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *stencils,
                            scalar *input, const scalar *settings, scalar *outcome, scalar *scratch)
 {
-	const int nodes = shared->lines * shared->length;
+	const int lines = shared->lines, length = shared->length, hats = shared->hats;
+	const int slots = REFERENCE_BLOCK_SLOTS(lines, hats);
 	scalar lanes[BLOCK_OUTCOME_COUNT + 1];
-	scalar *ring = scratch + (size_t)BLOCK_STATE_COUNT * (size_t)nodes;
-	const block_state s = { .lines = shared->lines,
-		                    .length = shared->length,
-		                    .nodes = nodes,
-		                    .slots = 3,
+	scalar *ring = scratch + (size_t)BLOCK_STATE_COUNT * (size_t)(lines * length);
+	scalar *hat_rows = ring + (size_t)BLOCK_PROBE_COUNT * (size_t)(slots * length);
+	const block_state s = { .lines = lines,
+		                    .length = length,
+		                    .nodes = lines * length,
+		                    .slots = slots,
 		                    .analytic = shared->analytic,
 		                    .across = stencils,
-		                    .along = stencils + shared->lines * STENCIL_SIZE,
+		                    .along = stencils + lines * STENCIL_SIZE,
 		                    .arrays = scratch,
 		                    .ring = ring,
-		                    .sums = ring + (size_t)3 * (size_t)shared->length * BLOCK_PROBE_COUNT };
+		                    .sums = hat_rows + BLOCK_HAT_NUMBERS(lines, hats),
+		                    .hats = hats,
+		                    .hat_values = stencils + (lines + length) * STENCIL_SIZE,
+		                    .hat_rows = hat_rows };
 	const block_memory m = {
 		.inputs = input, .settings = settings, .outcomes = outcome, .lanes = lanes
 	};

@@ -36,8 +36,8 @@ SHARED_FUNCTION void block_store(const block_state *s, const block_memory *m, co
 			to[n] = y[n * BATTEN_LANES + lane];
 	}
 	ROLLED
-	for (int lane = 0; lane < BATTEN_LANES; lane++)
-		if (leaves[lane] && WORK_ITEM == 0)
+	for (int lane = WORK_ITEM; lane < BATTEN_LANES; lane += WORK_ITEMS)
+		if (leaves[lane])
 			for (int v = 0; v < BLOCK_OUTCOME_COUNT; v++)
 				m->outcomes[(size_t)q->current[lane] * BLOCK_OUTCOME_COUNT + (size_t)v] =
 					told[v * BATTEN_LANES + lane];
@@ -97,6 +97,7 @@ SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works)
 	p->fall = CHOOSE(begins, zero, p->fall);
 	p->gained = CHOOSE(begins, zero, p->gained);
 	p->damping = CHOOSE(begins, zero, p->damping);
+	p->weight = CHOOSE(begins, zero, p->weight);
 }
 
 SHARED_FUNCTION void block_tell(const block_memory *m, const block_progress *p, mask finished)
@@ -173,7 +174,7 @@ SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, bloc
 	q->turns = 0;
 	p.working = p.fresh = p.objective = p.start = p.step = p.calm = p.converged = zero;
 	p.iterations = p.moves = p.trials = p.fall = p.damping = p.promise = zero;
-	p.tries = p.gained = zero;
+	p.tries = p.gained = p.weight = p.stiffness = zero;
 	p.old_1 = p.old_2 = p.older = zero;
 	for (int pair = 0; pair < BLOCK_MEMORY; pair++)
 		p.inverse[pair] = zero;

@@ -33,6 +33,26 @@ enum {
 	BLOCK_OUTCOME_COUNT
 };
 
+/* What is known of a node of a line about its hats (block_hats.h), the same on every line: the number of
+ * the first hat that it or a node beside it meets, how many from there on they meet, and of
+ * BLOCK_HATS_MET from there on the values, and what each of the nodes below, at and above adds to the
+ * first and to the second difference. */
+enum { BLOCK_HATS_MET = 4 };
+enum {
+	BLOCK_HAT_FIRST,
+	BLOCK_HAT_COUNT,
+	BLOCK_HAT_VALUE,
+	BLOCK_HAT_ONCE = BLOCK_HAT_VALUE + BLOCK_HATS_MET,
+	BLOCK_HAT_TWICE = BLOCK_HAT_ONCE + 3 * BLOCK_HATS_MET,
+	BLOCK_HAT_SIZE = BLOCK_HAT_TWICE + 3 * BLOCK_HATS_MET
+};
+
+/* Numbers of a row of the hats' table: a hat with those of its own line and of the next two. */
+#define BLOCK_HAT_BAND(hats) (2 * (hats) + BLOCK_HATS_MET)
+/* Numbers of all of a search's: the rows, the part of them that lines alone have, two ways. */
+#define BLOCK_HAT_NUMBERS(lines, hats)                                                             \
+	((lines) * (hats) * (BLOCK_HAT_BAND(hats) + BLOCK_HATS_MET + 2))
+
 /* Moves remembered by the pattern move. */
 enum { BLOCK_MEMORY = 3 };
 
@@ -65,6 +85,11 @@ enum {
 	BLOCK_PROBE_ST,
 	BLOCK_PROBE_COUNT
 };
+
+/* Numbers of a search's state in one lane: arrays, probes of so many lines, hats. */
+#define BLOCK_STATE_NUMBERS(lines, length, hats, slots)                                            \
+	(BLOCK_STATE_COUNT * (lines) * (length) + BLOCK_PROBE_COUNT * (slots) * (length) +             \
+	 BLOCK_HAT_NUMBERS(lines, hats))
 
 /* Sums of a line, added up over the lines in their order. */
 enum { BLOCK_SUM_COUNT = 2 * BLOCK_MEMORY + 2 };

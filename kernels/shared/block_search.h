@@ -5,7 +5,7 @@
 #ifndef BATTEN_SHARED_BLOCK_SEARCH_H
 #define BATTEN_SHARED_BLOCK_SEARCH_H
 
-#include "block_lines.h"
+#include "block_tables.h"
 #include "multilevel.h"
 
 /* A search has ended when the objective fell by less than this part of it BLOCK_CALM times running; or by
@@ -22,6 +22,8 @@
 /* Tables are damped by so much at least, or not at all. */
 #define BLOCK_DAMPING_LEAST LITERAL(0.125)
 #define BLOCK_DAMPING_MOST LITERAL(1e4)
+/* What is left of the weight of staying after a way that was short enough, at most. */
+#define BLOCK_STAY_FADES LITERAL(0.25)
 enum { BLOCK_TRIALS = 8 }; /* whole objectives an iteration */
 /* A pair whose slope changed by less than this part of what it was tells nothing of the curvature. */
 #define BLOCK_PAIR_FLOOR LITERAL(0.01)
@@ -32,6 +34,8 @@ typedef struct block_progress {
 	real objective, start, step, calm, converged;
 	real gained; /* by the last iteration */
 	real iterations, moves, trials;
+	real stiffness;             /* of the way, by the tables: slope . way / way . way */
+	real weight;                /* of staying, on the diagonals of the tables */
 	real damping;               /* of the tables: what their diagonals are raised by, as a part */
 	real tries;                 /* of the last iteration */
 	real promise;               /* of the first trial, by the slope */
@@ -67,9 +71,9 @@ SHARED_FUNCTION real block_most(const block_state *s, int sum)
 
 /* Probes and tables of all lines, WORK_ITEMS at a time: a line is gathered when those beside it are
  * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. */
-SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, real damping)
+SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, block_stay stay)
 {
-	const int at_once = s->slots - 2;
+	const int at_once = WORK_ITEMS;
 	int gathered = 0, line = 0;
 	ROLLED
 	for (int first = 0; first <= s->lines; first += at_once) {
@@ -82,7 +86,7 @@ SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, rea
 		for (line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS) {
 			if (line < 0 || line >= s->lines)
 				continue;
-			block_gather_line(s, line, turn, damping);
+			block_gather_line(s, line, turn, stay);
 			gathered++;
 			if (gathered == BLOCK_TOGETHER || line + WORK_ITEMS >= s->lines) {
 				block_factor_lines(s, line - (gathered - 1) * WORK_ITEMS, WORK_ITEMS, gathered);
@@ -91,6 +95,8 @@ SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, rea
 		}
 		WAIT;
 	}
+	if (s->hats > 0)
+		block_explore_hats(s, stay);
 }
 
 /* Which pairs of move and change tell of the curvature here; one made under other bounds does not. */
@@ -135,13 +141,14 @@ SHARED_FUNCTION void block_roll(const block_state *s, const block_progress *p, r
 }
 
 /* The whole way of a line: against the bottom of its parabola, and the moves remembered. Its longest
- * part goes into the sums. */
+ * part, slope . way and way . way go into the sums. */
 SHARED_FUNCTION void block_way_line(const block_state *s, int line, int turn, const real *beta)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const STATE real *inverse = block_array(s, BLOCK_STATE_INVERSE);
 	STATE real *way = block_array(s, BLOCK_STATE_WAY);
-	real longest = zero;
+	const STATE real *slope = block_array(s, BLOCK_STATE_SLOPE);
+	real longest = zero, fall = zero, square = zero;
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
 		real bottom = way[n];
@@ -153,17 +160,24 @@ SHARED_FUNCTION void block_way_line(const block_state *s, int line, int turn, co
 		const real size = CHOOSE(bottom < zero, -bottom, bottom);
 		longest = CHOOSE(size > longest, size, longest);
 		way[n] = bottom;
+		fall -= slope[n] * bottom;
+		square += bottom * bottom;
 	}
 	s->sums[line] = longest;
+	s->sums[s->lines + line] = fall;
+	s->sums[2 * s->lines + line] = square;
 }
 
 /* The way all lines go. Returns its longest part. */
 SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_progress *p)
 {
+	const real zero = SPREAD(LITERAL(0.0));
 	real alpha[BLOCK_MEMORY];
 	block_remember(s, p);
 	block_unroll(s, p, alpha);
 	WAIT;
+	if (s->hats > 0)
+		block_choose_hats(s, turn, alpha);
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
 		block_solve_line(s, line, turn, alpha);
@@ -175,6 +189,10 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 		block_way_line(s, line, turn, alpha);
 	WAIT;
 	const real longest = block_most(s, 0);
+	const real fall = block_total(s, 1);
+	const real square = block_total(s, 2);
+	const mask goes = square > zero;
+	p->stiffness = CHOOSE(goes, fall / CHOOSE(goes, square, SPREAD(LITERAL(1.0))), zero);
 	WAIT;
 	return longest;
 }
@@ -318,13 +336,27 @@ SHARED_FUNCTION void block_damp(block_progress *p, mask failed, mask gain)
 	                    CHOOSE(soon, calmer, p->damping));
 }
 
+/* A way longer than a step may be is not only cut: the next one is held back by a weight of staying, so
+ * that the stiff part of the way, noise, is gone all the same while the soft part waits (Levenberg's
+ * method, the weight after Hebden: More and Sorensen 1983). It goes when ways are short again. */
+SHARED_FUNCTION void block_hold(block_progress *p, real longest, block_limits limits)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real too_long = longest / limits.longest - SPREAD(LITERAL(1.0));
+	const real weight = p->weight + p->stiffness * too_long;
+	const real least = CHOOSE(weight > zero, weight, zero);
+	const real faded = SPREAD(BLOCK_STAY_FADES) * p->weight;
+	p->weight = CHOOSE(too_long > zero, weight, CHOOSE(least < faded, least, faded));
+}
+
 /* One iteration of all lanes that have a search. */
 SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits limits,
                                    block_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	block_explore(s, limits.far, turn, p->damping);
+	const block_stay stay = { p->damping, p->weight };
+	block_explore(s, limits.far, turn, stay);
 	const mask fresh = p->fresh > zero;
 	const real objective = block_total(s, BLOCK_SUM_COUNT - 1);
 	p->start = CHOOSE(fresh, objective, p->start);
@@ -340,6 +372,7 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	const mask over = (still & bare & done) | (gain & (p->step <= limits.last_step)) |
 	                  (p->calm >= SPREAD(BLOCK_CALM));
 	block_damp(p, still & bare, gain);
+	block_hold(p, longest, limits);
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		p->inverse[m] = CHOOSE(still, zero, p->inverse[m]);
 	p->converged = CHOOSE(over & (p->working > zero), one, p->converged);

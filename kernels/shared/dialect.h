@@ -7,7 +7,8 @@
  *   mask     what comparing two reals gives; only CHOOSE, ANY and & look into it
  *
  * What is worked by a group of work-items in OpenCL is worked by the only one in C: WORK_ITEM of
- * WORK_ITEMS, which WAIT for each other. GLOBAL and LOCAL say where memory lies, STATE where the state
+ * WORK_ITEMS, which WAIT for each other (BATTEN_ALONE, which the host may define:
+ * there is but one). GLOBAL and LOCAL say where memory lies, STATE where the state
  * of a search does (local, or global where it is too large; defined by the host).
  *
  * A C compiler with vector types can compile kernels too, where the includer has spelled OpenCL C's words
@@ -46,9 +47,7 @@ typedef int mask;
 #define GLOBAL
 #define LOCAL
 #define STATE
-#define WORK_ITEM 0
-#define WORK_ITEMS 1
-#define WAIT ((void)0)
+#define BATTEN_ALONE
 #define ROLLED
 #define UNROLLED
 
@@ -107,9 +106,6 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #endif
 #define GLOBAL global
 #define LOCAL local
-#define WORK_ITEM ((int)get_local_id(0))
-#define WORK_ITEMS ((int)get_local_size(0))
-#define WAIT barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
 /* Unrolled loops cost PoCL half a minute of compiling and gain nothing: the lanes are unrolled
  * already. */
 #define ROLLED _Pragma("unroll 1")
@@ -118,6 +114,17 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #define UNROLLED _Pragma("unroll")
 #endif
 
+#endif
+
+/* Around barriers, though nobody waits at them, PoCL takes the kernel apart: three times the compiling. */
+#if defined(BATTEN_ALONE)
+#define WORK_ITEM 0
+#define WORK_ITEMS 1
+#define WAIT ((void)0)
+#else
+#define WORK_ITEM ((int)get_local_id(0))
+#define WORK_ITEMS ((int)get_local_size(0))
+#define WAIT barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
 #endif
 
 /* a * b + c rounded once. Correct on every device, so strict arithmetic may use it. */

@@ -68,11 +68,11 @@ static void test_minimum_is_the_oracles(void **state)
 }
 
 /* A noisy hull of a wave's form over a grid of its own. */
-enum { STATIONS = 21, WATERLINES = 20, NODES = STATIONS * WATERLINES };
+enum { STATIONS = 21, WATERLINES = 20, MOST = 61 * 31 };
 typedef struct noisy_hull {
 	size_t nx, nz;
-	double x[STATIONS], z[WATERLINES];
-	double y[NODES], lower[NODES], upper[NODES], end[NODES];
+	double x[61], z[31];
+	double y[MOST], lower[MOST], upper[MOST], end[MOST];
 } noisy_hull;
 
 static void make_noisy(noisy_hull *hull, uint32_t seed, double noise)
@@ -143,21 +143,22 @@ static double gap_of_noisy(batten_context *context, noisy_hull *hull, double w2)
 		                            .w1 = 1.0,
 		                            .w2 = w2,
 		                            .h = 0.8 };
-	double best[NODES];
+	double best[MOST];
 	oracle_minimum minimum;
 	assert_true(oracle_minimise(&oracle, best, &minimum) && minimum.converged);
 	return (result.objective_end - (double)minimum.objective) / (double)minimum.objective;
 }
 
-/* Square cells, where many iterations are needed, lines along x, and spacing that changes from line to
- * line. */
+/* Square cells, lines along x, and spacing that changes from line to line; at the least weight hats couple
+ * the lines on each. */
 static void test_grids_of_other_kinds(void **state)
 {
 	(void)state;
 	batten_context *context = NULL;
 	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
 	for (int kind = 0; kind < 3; kind++)
-		for (double w2 = 40.0; w2 < 1e6; w2 *= 100.0) {
+		for (int power = 0; power < 4; power++) {
+			const double w2 = 0.4 * pow(100.0, power);
 			noisy_hull hull = { .nx = 13, .nz = 11 };
 			for (size_t i = 0; i < hull.nx; i++)
 				hull.x[i] = kind == 0   ? 0.1 * (double)i
@@ -170,6 +171,35 @@ static void test_grids_of_other_kinds(void **state)
 			make_noisy(&hull, 5, 0.01);
 			assert_true(gap_of_noisy(context, &hull, w2) <= 1e-6);
 		}
+	batten_context_destroy(context);
+}
+
+/* Finer tables, and square cells, take few more iterations than 13 for 21 x 20 stretched ones. */
+static void test_iterations_on_finer_grids(void **state)
+{
+	(void)state;
+	static const struct {
+		size_t nx, nz;
+		double dx, dz;
+		unsigned most;
+	} grids[] = { { 21, 20, 0.8, 1.0 / 19.0, 16 },
+		          { 21, 20, 1.0 / 19.0, 1.0 / 19.0, 33 },
+		          { 61, 31, 16.0 / 60.0, 1.0 / 30.0, 25 } };
+	batten_context *context = NULL;
+	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
+	const batten_search_options options = block_options(BATTEN_F64);
+	for (size_t g = 0; g < sizeof grids / sizeof grids[0]; g++) {
+		noisy_hull hull = { .nx = grids[g].nx, .nz = grids[g].nz };
+		for (size_t i = 0; i < hull.nx; i++)
+			hull.x[i] = grids[g].dx * (double)i;
+		for (size_t k = 0; k < hull.nz; k++)
+			hull.z[k] = grids[g].dz * (double)k;
+		make_noisy(&hull, 1, 0.01);
+		const batten_search_result result = run(context, &hull, 40.96, &options);
+		assert_true(result.iterations <= grids[g].most);
+		const double best = polished(context, &hull, 40.96, &options);
+		assert_true(fabs(result.objective_end - best) <= 1e-8 * best);
+	}
 	batten_context_destroy(context);
 }
 
@@ -268,6 +298,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_minimum_is_the_oracles),
 		cmocka_unit_test(test_grids_of_other_kinds),
+		cmocka_unit_test(test_iterations_on_finer_grids),
 		cmocka_unit_test(test_robust_against_noise),
 		cmocka_unit_test(test_slopes_by_formula),
 		cmocka_unit_test(test_refusals),

@@ -45,8 +45,7 @@ typedef struct batten_search_problem {
 
 /* How a search looks for the minimum (kernels/README.md). */
 typedef enum batten_search_algorithm {
-	BATTEN_ALGORITHM_AUTO,       /* BLOCK where it applies and one mean spacing is twice the other
-	                                or more, else MULTILEVEL */
+	BATTEN_ALGORITHM_AUTO,       /* BLOCK where it applies, else MULTILEVEL */
 	BATTEN_ALGORITHM_TEXTBOOK,   /* Hooke and Jeeves as published (thesis 7.2): to compare with */
 	BATTEN_ALGORITHM_MULTILEVEL, /* probes along hats of several widths: any objective */
 	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand: plain bending

@@ -1,0 +1,358 @@
+/* What lines alone do not see in the block search: the coupling of neighbouring lines along ways that
+ * are smooth along them. Hats one line wide, quadratic B-splines along it, span such ways; their common
+ * parabola has a table of its own, from the same probes: hats, line by line, coupled over two lines. The
+ * way of the lines has a part of it already, what the blocks of that table on the diagonal say; so the
+ * exploratory move takes the bottom of the hats' parabola in place of the bottom of these blocks (the
+ * sum of both would go twice as far where the two agree). Hats are cut where offsets are held. */
+#ifndef BATTEN_SHARED_BLOCK_HATS_H
+#define BATTEN_SHARED_BLOCK_HATS_H
+
+#include "block_lines.h"
+
+/* A pivot below this part of its diagonal is rounding. */
+#if BATTEN_DOUBLE
+#define BLOCK_PIVOT_FLOOR LITERAL(1e-11)
+#else
+#define BLOCK_PIVOT_FLOOR LITERAL(1e-5)
+#endif
+
+/* What holds a search where it is: diagonals are raised by a part of them and by a weight. */
+typedef struct block_stay {
+	real part, weight;
+} block_stay;
+
+/* A table of hats: rows of `band` numbers, the diagonal first; the inverses of the pivots take its place
+ * when it is factored. way: a number a row. */
+typedef struct block_hat_table {
+	STATE real *rows, *way;
+	int count, band;
+} block_hat_table;
+
+/* All hats coupled. */
+SHARED_FUNCTION block_hat_table block_hats_whole(const block_state *s)
+{
+	block_hat_table table;
+	table.count = s->lines * s->hats;
+	table.band = BLOCK_HAT_BAND(s->hats);
+	table.rows = s->hat_rows;
+	table.way = table.rows + table.count * (table.band + BLOCK_HATS_MET);
+	return table;
+}
+
+/* The lines apart. */
+SHARED_FUNCTION block_hat_table block_hats_apart(const block_state *s)
+{
+	block_hat_table table = block_hats_whole(s);
+	table.rows += table.count * table.band;
+	table.way += table.count;
+	table.band = BLOCK_HATS_MET;
+	return table;
+}
+
+/* 1 where an offset is free, else 0. */
+SHARED_FUNCTION real block_is_free(const block_state *s, int n)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	return CHOOSE(block_array(s, BLOCK_STATE_INVERSE)[n] > zero, SPREAD(LITERAL(1.0)), zero);
+}
+
+/* What the hats of a line weigh in the second derivatives at a node; t only on its own line. */
+typedef struct block_hats {
+	real r[BLOCK_HATS_MET], s[BLOCK_HATS_MET], t[BLOCK_HATS_MET];
+} block_hats;
+
+/* Those of line `of` at node k of line `at`, the same line or one beside it. */
+SHARED_FUNCTION void block_hats_at(const block_state *s, int at, int of, int k, block_hats *hats)
+{
+	GLOBAL const scalar *w = s->across + at * STENCIL_SIZE;
+	GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
+	const scalar once = of < at ? -w[0] : of > at ? w[1] : w[0] - w[1];
+	const scalar twice = of < at ? w[2] : of > at ? w[3] : -(w[2] + w[3]);
+	const int n = of * s->length + k;
+	const real below = block_is_free(s, n - 1);
+	const real here = block_is_free(s, n);
+	const real above = block_is_free(s, n + 1);
+	for (int j = 0; j < BLOCK_HATS_MET; j++) {
+		GLOBAL const scalar *first = v + BLOCK_HAT_ONCE + j;
+		hats->r[j] = (twice * v[BLOCK_HAT_VALUE + j]) * here;
+		hats->s[j] = once * ((first[0] * below + first[BLOCK_HATS_MET] * here) +
+		                     first[2 * BLOCK_HATS_MET] * above);
+	}
+	if (of != at)
+		return;
+	for (int j = 0; j < BLOCK_HATS_MET; j++) {
+		GLOBAL const scalar *second = v + BLOCK_HAT_TWICE + j;
+		hats->t[j] = (second[0] * below + second[BLOCK_HATS_MET] * here) +
+		             second[2 * BLOCK_HATS_MET] * above;
+	}
+}
+
+/* Adds what hats of one line, at a node, couple with those of the same or a later line: to rows, where
+ * the coupling of the first of both is. `met` hats are not 0. bends: the second line is the node's own. */
+SHARED_FUNCTION void block_couple(STATE real *rows, int band, int met, int same, int bends,
+                                  const block_hats *bent, const block_hats *hats)
+{
+	ROLLED
+	for (int j = 0; j < met; j++) {
+		STATE real *row = rows + j * (band - 1);
+		ROLLED
+		for (int i = same ? j : 0; i < met; i++) {
+			const real sum = bent->r[j] * hats->r[i] + bent->s[j] * hats->s[i];
+			row[i] += bends ? sum + bent->t[j] * hats->t[i] : sum;
+		}
+	}
+}
+
+/* The curvatures probed at a node times what hats weigh there: of its own line, or of another. */
+SHARED_FUNCTION void block_bend_hats(STATE const real *probes, int own, const block_hats *hats,
+                                     block_hats *bent)
+{
+	for (int j = 0; j < BLOCK_HATS_MET; j++) {
+		const real r = hats->r[j], s = hats->s[j];
+		bent->r[j] = probes[BLOCK_PROBE_RR] * r + probes[BLOCK_PROBE_RS] * s;
+		bent->s[j] = probes[BLOCK_PROBE_RS] * r + probes[BLOCK_PROBE_SS] * s;
+		bent->t[j] = probes[BLOCK_PROBE_RT] * r + probes[BLOCK_PROBE_ST] * s;
+		if (own) {
+			bent->r[j] += probes[BLOCK_PROBE_RT] * hats->t[j];
+			bent->s[j] += probes[BLOCK_PROBE_ST] * hats->t[j];
+			bent->t[j] += probes[BLOCK_PROBE_TT] * hats->t[j];
+		}
+	}
+}
+
+/* Adds the curvatures of the nodes of line `at` to the rows of the lines from number `from` to `to` of
+ * the three they are of. */
+SHARED_FUNCTION void block_gather_hats_around(const block_state *s, int at, int from, int to)
+{
+	const block_hat_table table = block_hats_whole(s);
+	const STATE real *ring = block_ring(s, at);
+	ROLLED
+	for (int k = 1; k + 1 < s->length; k++) {
+		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
+		const STATE real *probes = ring + k * BLOCK_PROBE_COUNT;
+		const int first = (int)v[BLOCK_HAT_FIRST];
+		const int met = (int)v[BLOCK_HAT_COUNT];
+		STATE real *rows = table.rows + ((at - 1) * s->hats + first) * table.band;
+		block_hats hats[3], bent;
+		ROLLED
+		for (int a = from; a < 3; a++)
+			block_hats_at(s, at, at - 1 + a, k, &hats[a]);
+		ROLLED
+		for (int a = from; a <= to; a++) {
+			block_bend_hats(probes, a == 1, &hats[a], &bent);
+			ROLLED
+			for (int b = a; b < 3; b++)
+				block_couple(rows + a * s->hats * table.band + (b - a) * s->hats, table.band, met,
+				             a == b, b == 1, &bent, &hats[b]);
+		}
+	}
+}
+
+/* Begins a line's rows: closeness and the weight of staying. */
+SHARED_FUNCTION void block_begin_hats(const block_state *s, int line, real weight)
+{
+	const block_hat_table table = block_hats_whole(s);
+	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
+	STATE real *rows = table.rows + line * s->hats * table.band;
+	ROLLED
+	for (int n = 0; n < s->hats * table.band; n++)
+		rows[n] = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int k = 0; k < s->length; k++) {
+		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
+		const int n = line * s->length + k;
+		const real here = ((close[n] + close[n]) + weight) * block_is_free(s, n);
+		ROLLED
+		for (int j = 0; j < BLOCK_HATS_MET; j++) {
+			STATE real *row = rows + ((int)v[BLOCK_HAT_FIRST] + j) * table.band - j;
+			ROLLED
+			for (int i = j; i < BLOCK_HATS_MET; i++)
+				row[i] += (v[BLOCK_HAT_VALUE + j] * v[BLOCK_HAT_VALUE + i]) * here;
+		}
+	}
+}
+
+/* Completes them; what is rounding of a pivot goes where the way will be. */
+SHARED_FUNCTION void block_end_hats(const block_state *s, int line, real part)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const block_hat_table whole = block_hats_whole(s);
+	const block_hat_table apart = block_hats_apart(s);
+	ROLLED
+	for (int hat = 0; hat < s->hats; hat++) {
+		const int n = line * s->hats + hat;
+		STATE real *row = whole.rows + n * whole.band;
+		row[0] += part * row[0];
+		for (int d = 0; d < BLOCK_HATS_MET; d++)
+			apart.rows[n * apart.band + d] = hat + d < s->hats ? row[d] : zero;
+		whole.way[n] = apart.way[n] = SPREAD(BLOCK_PIVOT_FLOOR) * row[0];
+	}
+}
+
+/* 1 / pivot, 0 where it is rounding: a hat that is held, or depends on those before it, has none. */
+SHARED_FUNCTION real block_hat_inverse(real pivot, real floor)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const mask has = (pivot > floor) & (pivot > zero);
+	return CHOOSE(has, one / CHOOSE(has, pivot, one), zero);
+}
+
+/* Takes row n out of those below that it couples with, and puts the inverse of its pivot there. */
+SHARED_FUNCTION void block_eliminate_hat(block_hat_table table, int n, real inverse)
+{
+	STATE real *row = table.rows + n * table.band;
+	const int reach = table.count - n < table.band ? table.count - n : table.band;
+	ROLLED
+	for (int d = 1; d < reach; d++) {
+		STATE real *below = row + d * (table.band - 1);
+		const real factor = row[d] * inverse;
+		ROLLED
+		for (int e = d; e < reach; e++)
+			below[e] -= factor * row[e];
+	}
+	row[0] = inverse;
+}
+
+/* Factors all rows, by one work-item: each waits for the one before. */
+SHARED_FUNCTION void block_factor_whole(const block_state *s)
+{
+	const block_hat_table whole = block_hats_whole(s);
+	ROLLED
+	for (int n = 0; n < whole.count; n++)
+		block_eliminate_hat(whole, n, block_hat_inverse(whole.rows[n * whole.band], whole.way[n]));
+}
+
+/* Factors a line's rows of the lines apart. A hat without a pivot among all has none here. */
+SHARED_FUNCTION void block_factor_apart(const block_state *s, int line)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const block_hat_table whole = block_hats_whole(s);
+	const block_hat_table apart = block_hats_apart(s);
+	ROLLED
+	for (int n = line * s->hats; n < (line + 1) * s->hats; n++) {
+		const real inverse = block_hat_inverse(apart.rows[n * apart.band], apart.way[n]);
+		const mask has = whole.rows[n * whole.band] > zero;
+		block_eliminate_hat(apart, n, CHOOSE(has, inverse, zero));
+	}
+}
+
+/* Adds the curvatures to all rows. Each row gets them from lines of nodes in turn, those of number 3 n + 1
+ * first, then 3 n + 2, then 3 n: alone, a line's hats are then worked out once for all rows they add to;
+ * many work-items take each its own lines and need not wait for each other. */
+SHARED_FUNCTION void block_gather_hats(const block_state *s)
+{
+	ROLLED
+	for (int third = 1; third <= 3; third++) {
+#if defined(BATTEN_ALONE)
+		ROLLED
+		for (int at = third; at + 1 < s->lines; at += 3)
+			block_gather_hats_around(s, at, 0, 2);
+#else
+		ROLLED
+		for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS) {
+			const int at = line - 1 + (third + 4 - line % 3) % 3;
+			if (block_is_inside(at, s->lines))
+				block_gather_hats_around(s, at, line - at + 1, line - at + 1);
+		}
+#endif
+	}
+}
+
+/* The factors of both tables from the probes of all lines. */
+SHARED_FUNCTION void block_explore_hats(const block_state *s, block_stay stay)
+{
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		block_begin_hats(s, line, stay.weight);
+	block_gather_hats(s);
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		block_end_hats(s, line, stay.part);
+	WAIT;
+	if (WORK_ITEM == 0)
+		block_factor_whole(s);
+	WAIT;
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		block_factor_apart(s, line);
+	WAIT;
+}
+
+/* The bottom of a table's parabola in the place of the slopes along its hats. */
+SHARED_FUNCTION void block_solve_hats(block_hat_table table)
+{
+	ROLLED
+	for (int n = 0; n < table.count; n++) {
+		const STATE real *row = table.rows + n * table.band;
+		const int reach = table.count - n < table.band ? table.count - n : table.band;
+		const real part = table.way[n] * row[0];
+		ROLLED
+		for (int d = 1; d < reach; d++)
+			table.way[n + d] -= row[d] * part;
+	}
+	ROLLED
+	for (int n = table.count - 1; n >= 0; n--) {
+		const STATE real *row = table.rows + n * table.band;
+		const int reach = table.count - n < table.band ? table.count - n : table.band;
+		real left = table.way[n];
+		ROLLED
+		for (int d = 1; d < reach; d++)
+			left -= row[d] * table.way[n + d];
+		table.way[n] = left * row[0];
+	}
+}
+
+/* Slopes along a line's hats, less the changes remembered, alpha of each. */
+SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, const real *alpha)
+{
+	STATE real *whole = block_hats_whole(s).way + line * s->hats;
+	STATE real *apart = block_hats_apart(s).way + line * s->hats;
+	ROLLED
+	for (int hat = 0; hat < s->hats; hat++)
+		whole[hat] = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int k = 0; k < s->length; k++) {
+		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
+		const int n = line * s->length + k;
+		const real slope = block_slope_left(s, n, turn, alpha) * block_is_free(s, n);
+		for (int j = 0; j < BLOCK_HATS_MET; j++)
+			whole[(int)v[BLOCK_HAT_FIRST] + j] += v[BLOCK_HAT_VALUE + j] * slope;
+	}
+	ROLLED
+	for (int hat = 0; hat < s->hats; hat++)
+		apart[hat] = whole[hat];
+}
+
+/* The way of the hats beyond that of the lines. */
+SHARED_FUNCTION void block_choose_hats(const block_state *s, int turn, const real *alpha)
+{
+	const block_hat_table whole = block_hats_whole(s);
+	const block_hat_table apart = block_hats_apart(s);
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		block_slope_hats(s, line, turn, alpha);
+	WAIT;
+	if (WORK_ITEM == 0) {
+		ROLLED
+		for (int both = 0; both < 2; both++)
+			block_solve_hats(both ? apart : whole);
+		ROLLED
+		for (int n = 0; n < whole.count; n++)
+			whole.way[n] -= apart.way[n];
+	}
+	WAIT;
+}
+
+/* How far that moves node k of a line. */
+SHARED_FUNCTION real block_hats_beyond(const block_state *s, int line, int k)
+{
+	GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
+	const STATE real *way = block_hats_whole(s).way + line * s->hats + (int)v[BLOCK_HAT_FIRST];
+	real moved = SPREAD(LITERAL(0.0));
+	for (int j = 0; j < BLOCK_HATS_MET; j++)
+		moved += v[BLOCK_HAT_VALUE + j] * way[j];
+	return moved * block_is_free(s, line * s->length + k);
+}
+
+#endif
