@@ -84,12 +84,14 @@ gmsh
 sqlite3
 chromium
 slurm-wlm munge parallel
+oclgrind
 "
 # cmocka: unit tests. nlopt: the optimum that a search is compared with. clang: the second compiler, the
 # kernels' syntax, and with libclang-rt AddressSanitizer. clang-format clang-tidy: layout and lint.
 # vulkan-validationlayers: misuse of Vulkan. xmllint and rsvg-convert: SVG files. gmsh: opens the IGES and
-# STEP files, as an independent program. sqlite3: reads the databases of sweeps. slurm-wlm munge parallel:
-# shards of a sweep on a cluster of one machine. chromium: the page of batten report in a real browser.
+# STEP files, as an independent program. sqlite3: reads the databases of sweeps. oclgrind: watches kernels at
+# work. slurm-wlm munge parallel: shards of a sweep on a cluster of one machine. chromium: the page of
+# batten report in a real browser.
 
 # nodejs npm: the page of batten report. Other sources' nodejs brings npm along and cannot stand beside
 # Debian's, so whoever has the commands needs no package. The page's modules come from the registry that

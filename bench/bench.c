@@ -14,6 +14,8 @@ const bench_entry bench_entries[] = {
 	  bench_search_textbook },
 	{ "search.block", "the block search against the multilevel search, and NLopt where it is there",
 	  bench_search_block },
+	{ "search.lanes", "many block searches: lanes of use, time, memory; iterations of other tables",
+	  bench_search_lanes },
 	{ "search.net", "searches over control nets, OpenCL against the plain C path",
 	  bench_search_net },
 	{ "forward.pass", "forward and inverse fairing of many hulls, OpenCL against the plain C path",

@@ -5,6 +5,7 @@
 #include <string.h>
 
 enum { MEMORY = 10, EVALUATIONS = 5000, ATTEMPTS = 30 };
+#define FIRST_STEP 0.016 /* m: as the searches' */
 
 typedef struct peer {
 	const batten_search_problem *problem;
@@ -114,6 +115,30 @@ double nlopt_peer_search(const wigley_case *w, size_t hull, double stop, double 
 		if (!(c.best_value < before * (1.0 - 1e-14)))
 			break;
 	}
+	nlopt_destroy(search);
+	return ok ? c.best_value : (double)NAN;
+}
+
+double nlopt_peer_search_values(const wigley_case *w, size_t hull, nlopt_peer_algorithm algorithm,
+                                double stop, double seconds, double *y)
+{
+	peer c = { .problem = &w->problems[hull],
+		       .dx = w->x[1] - w->x[0],
+		       .dz = w->z[1] - w->z[0],
+		       .best_value = HUGE_VAL,
+		       .best = y };
+	double point[WIGLEY_NODES];
+	memcpy(point, c.problem->start_m, sizeof point);
+	nlopt_opt search = nlopt_create(
+		algorithm == NLOPT_PEER_PRAXIS ? NLOPT_LN_PRAXIS : NLOPT_LN_SBPLX, WIGLEY_NODES);
+	const bool ok = search && nlopt_set_min_objective(search, objective_of, &c) > 0 &&
+	                nlopt_set_lower_bounds(search, c.problem->lower_m) > 0 &&
+	                nlopt_set_upper_bounds(search, c.problem->upper_m) > 0 &&
+	                nlopt_set_initial_step1(search, FIRST_STEP) > 0 &&
+	                nlopt_set_maxtime(search, seconds) > 0 && nlopt_set_stopval(search, stop) > 0;
+	double value = 0.0;
+	if (ok)
+		(void)nlopt_optimize(search, point, &value); /* the best point is kept */
 	nlopt_destroy(search);
 	return ok ? c.best_value : (double)NAN;
 }

@@ -11,4 +11,16 @@
 typedef double nlopt_peer_function(const wigley_case *w, size_t hull, double stop, double *y);
 __attribute__((visibility("default"))) nlopt_peer_function nlopt_peer_search;
 
+/* Algorithms that know values alone. */
+typedef enum nlopt_peer_algorithm {
+	NLOPT_PEER_PRAXIS, /* LN_PRAXIS */
+	NLOPT_PEER_SBPLX,  /* LN_SBPLX */
+} nlopt_peer_algorithm;
+
+/* The same without gradients, from the start once, for so many seconds at most. */
+typedef double nlopt_peer_values_function(const wigley_case *w, size_t hull,
+                                          nlopt_peer_algorithm algorithm, double stop,
+                                          double seconds, double *y);
+__attribute__((visibility("default"))) nlopt_peer_values_function nlopt_peer_search_values;
+
 #endif

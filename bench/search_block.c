@@ -1,13 +1,15 @@
 /* search.block: the block search to its own end, 256 hulls in a batch, against others to the same
  * objective on every one of the first 16: the multilevel search, the same block search with slopes by
- * formula, and NLopt's LD_LBFGS with the gradient by formula, one hull after another in plain C. Where a rival cannot come as low, it runs as low as it can, and the block search to its end all the
- * same. How far each must run is found beforehand. */
+ * formula, NLopt's LD_LBFGS with the gradient by formula, one hull after another in plain C, and on one
+ * hull its LN_PRAXIS and LN_SBPLX. Where a rival cannot come as low, it runs as low as it can, and the
+ * block search to its end all the same. How far each must run is found beforehand. */
 #include "nlopt_peer.h"
 
 #include <math.h>
 #include <stdio.h>
 
 enum { HULLS = 16, BATCH = 256, ITERATIONS = 20000 };
+#define VALUES_SECONDS 120.0
 
 /* Floating-point operations of an iteration, counted in the source, divisions and roots as one: at a node
  * with an energy (probes, objective of the trial) and at every node (tables, their factors, the way). */
@@ -22,7 +24,8 @@ typedef struct contest {
 	double ends[WIGLEY_MOST_HULLS]; /* of the block search */
 	double most[WIGLEY_MOST_HULLS]; /* what the rival must reach */
 	nlopt_peer_function *nlopt;     /* NULL: not there */
-	double within;                  /* how far ends may lie apart, as a part */
+	nlopt_peer_values_function *nlopt_values;
+	double within; /* how far ends may lie apart, as a part */
 } contest;
 
 typedef batten_status rival(contest *c);
@@ -145,6 +148,36 @@ static batten_status prepare_block(contest *c, batten_run *ran)
 	return status == BATTEN_OK ? wigley_ends(c->settings, &judged, &c->w, c->ends) : status;
 }
 
+/* Against algorithms without gradients, to 1e-4 above the block search's end: minutes a hull, so the first
+ * one, once, for at most VALUES_SECONDS; where that is not enough the ratio is what it is at least. */
+static batten_status run_values(contest *c, bench_row *row)
+{
+	static const struct {
+		nlopt_peer_algorithm algorithm;
+		const char *name, *unfinished;
+	} rivals[] = { { NLOPT_PEER_PRAXIS, "nlopt_praxis", "nlopt_praxis, not there" },
+		           { NLOPT_PEER_SBPLX, "nlopt_sbplx", "nlopt_sbplx, not there" } };
+	(void)snprintf(row->case_name, sizeof row->case_name, "21x20 w 1e4 gap 1e-4");
+	row->percent_of_peak = 0.0;
+	for (size_t r = 0; r < sizeof rivals / sizeof rivals[0]; r++) {
+		const double stop = (1.0 + 1e-4) * c->ends[0];
+		double begun = bench_seconds(c->settings);
+		const batten_status status = run_block(c);
+		if (status != BATTEN_OK)
+			return status;
+		row->value = 1e6 * (bench_seconds(c->settings) - begun) / BATCH;
+		begun = bench_cpu_seconds();
+		const double found = c->nlopt_values(&c->w, 0, rivals[r].algorithm, stop, VALUES_SECONDS,
+		                                     c->w.known_y);
+		row->reference_value = 1e6 * (bench_cpu_seconds() - begun);
+		row->reference = found <= stop ? rivals[r].name : rivals[r].unfinished;
+		row->ratio = row->reference_value / row->value;
+		row->ratio_low = row->ratio_high = row->ratio;
+		c->settings->emit(row, c->settings->user);
+	}
+	return BATTEN_OK;
+}
+
 static batten_status run_case(contest *c, double raw_w2, batten_precision precision)
 {
 	bench_row row = { .name = "search.block", .precision = precision, .unit = "us per hull" };
@@ -172,7 +205,11 @@ static batten_status run_case(contest *c, double raw_w2, batten_precision precis
 		return status;
 	row.reference = "nlopt_lbfgs";
 	status = prepare_nlopt(c);
-	return status == BATTEN_OK ? pair(c, run_nlopt, HULLS, &row) : status;
+	if (status == BATTEN_OK)
+		status = pair(c, run_nlopt, HULLS, &row);
+	if (status == BATTEN_OK && c->nlopt_values && c->settings->full && raw_w2 == 1e4)
+		status = run_values(c, &row);
+	return status;
 }
 
 batten_status bench_search_block(const bench_settings *settings)
@@ -183,6 +220,8 @@ batten_status bench_search_block(const bench_settings *settings)
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++) {
 		contest c = { .settings = settings };
 		c.nlopt = (nlopt_peer_function *)bench_open_peer("batten_nlopt_peer", "nlopt_peer_search");
+		c.nlopt_values = (nlopt_peer_values_function *)bench_open_peer("batten_nlopt_peer",
+		                                                               "nlopt_peer_search_values");
 		status = wigley_case_create(BATCH, weights[i], &c.w) ? BATTEN_OK : BATTEN_MEMORY;
 		for (int precision = 0; precision < 2 && status == BATTEN_OK; precision++)
 			status = run_case(&c, weights[i], precision ? BATTEN_F32 : BATTEN_F64);

@@ -37,8 +37,8 @@ kernel void block_search(int lines, int length, int hats, int slots, int iterati
 	s.hat_values = s.along + length * STENCIL_SIZE;
 	s.arrays = room;
 #if defined(STATE_IS_GLOBAL)
-	s.arrays += (size_t)group * BLOCK_STATE_NUMBERS((size_t)lines, (size_t)length, (size_t)hats,
-	                                                (size_t)slots);
+	s.arrays += (size_t)group *
+	            BLOCK_STATE_NUMBERS((size_t)lines, (size_t)length, (size_t)hats, (size_t)slots);
 #endif
 	s.ring = s.arrays + BLOCK_STATE_COUNT * s.nodes;
 	s.hat_rows = s.ring + BLOCK_PROBE_COUNT * (slots * length);

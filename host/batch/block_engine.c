@@ -113,7 +113,7 @@ static batten_status block_allocate(batch_engine *engine, block *b)
 	b->groups = (b->count + b->share - 1) / b->share;
 	b->stencils = batten_allocate(context, block_stencil_count(b->plan), b->number);
 	b->input_bytes = BLOCK_INPUT_COUNT * b->nodes * b->number;
-	b->direct = batch_engine_device(engine)->is_cpu;
+	b->direct = batch_engine_device(engine)->is_cpu && !engine->copies;
 	b->inputs = batch_engine_memory(engine, b->count, b->input_bytes);
 	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
 	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);

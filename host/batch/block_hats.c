@@ -28,7 +28,8 @@ static size_t span_count(const search_plan *plan)
 		nodes = LEAST_NODES;
 	if (nodes < (intervals + MOST_SPANS - 1) / MOST_SPANS)
 		nodes = (intervals + MOST_SPANS - 1) / MOST_SPANS;
-	return nodes < intervals ? intervals / nodes : 1;
+	const size_t spans = intervals / nodes;
+	return spans > 0 ? spans : 1;
 }
 
 size_t block_hat_count(const search_plan *plan)
@@ -37,10 +38,10 @@ size_t block_hat_count(const search_plan *plan)
 	return hats < BLOCK_HATS_MET ? BLOCK_HATS_MET : hats;
 }
 
-/* The node at which span `span` begins. */
+/* The node at which span `span` of spans, at least one, begins. */
 static size_t knot_of(size_t span, size_t spans, size_t intervals)
 {
-	return (span * intervals + spans / 2) / spans;
+	return spans > 0 ? (span * intervals + spans / 2) / spans : 0;
 }
 
 /* The span of a node. */

@@ -32,6 +32,7 @@ typedef struct batch_engine {
 	batten_selftest test;
 	void *memory; /* of batch_engine_memory() */
 	size_t memory_bytes;
+	bool copies; /* memory is copied, though the device could work in the host's: as others do */
 	struct batch_engine *next;
 } batch_engine;
 

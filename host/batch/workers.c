@@ -214,3 +214,16 @@ batten_status batch_work_run_all(batch_work *work, size_t count, batten_run *run
 		*run = told;
 	return status;
 }
+
+void batch_run_add(batten_run *total, const batten_run *run)
+{
+	const batten_run before = *total;
+	if (before.device[0] == '\0' || (before.warning[0] == '\0' && run->warning[0] != '\0'))
+		*total = *run;
+	total->strict = before.strict && run->strict;
+	total->seconds = before.seconds + run->seconds;
+	total->lane_use = total->seconds > 0.0
+	                      ? (before.lane_use * before.seconds + run->lane_use * run->seconds) /
+	                            total->seconds
+	                      : run->lane_use;
+}

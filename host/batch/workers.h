@@ -30,4 +30,8 @@ batten_status batch_work_run(batch_work *work, batten_run *run);
  * written when all went well. Errors: as batch_work_run(). */
 batten_status batch_work_run_all(batch_work *work, size_t count, batten_run *run);
 
+/* Adds what ran a batch to what ran those before it: strict when all were, the first warning, seconds in
+ * all, lanes of use by them. What is added to is zero but for strict at first. */
+void batch_run_add(batten_run *total, const batten_run *run);
+
 #endif

@@ -1,5 +1,6 @@
 /* batten_surface_grid_stream and batten_surface_energy_stream: batch after batch between a source and
  * a sink. */
+#include "batch/workers.h"
 #include "geometry/surface_batch.h"
 
 /* Surfaces of a batch: full lanes on several devices; fewer where their values are many. */
@@ -93,12 +94,7 @@ static batten_status run_batch(stream *s, size_t count)
 	                                                             s->singular, &run);
 	if (status != BATTEN_OK)
 		return status;
-	const double seconds = s->run.seconds + run.seconds;
-	const bool strict = s->run.strict && run.strict;
-	if (s->given == 0 || (s->run.warning[0] == '\0' && run.warning[0] != '\0'))
-		s->run = run;
-	s->run.seconds = seconds;
-	s->run.strict = strict;
+	batch_run_add(&s->run, &run);
 	return BATTEN_OK;
 }
 

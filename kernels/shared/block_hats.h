@@ -198,11 +198,12 @@ SHARED_FUNCTION real block_hat_inverse(real pivot, real floor)
 	return CHOOSE(has, one / CHOOSE(has, pivot, one), zero);
 }
 
-/* Takes row n out of those below that it couples with, and puts the inverse of its pivot there. */
-SHARED_FUNCTION void block_eliminate_hat(block_hat_table table, int n, real inverse)
+/* Takes row n out of those below that it couples with, before row `end`, and puts the inverse of its pivot
+ * there. */
+SHARED_FUNCTION void block_eliminate_hat(block_hat_table table, int n, int end, real inverse)
 {
 	STATE real *row = table.rows + n * table.band;
-	const int reach = table.count - n < table.band ? table.count - n : table.band;
+	const int reach = end - n < table.band ? end - n : table.band;
 	ROLLED
 	for (int d = 1; d < reach; d++) {
 		STATE real *below = row + d * (table.band - 1);
@@ -220,7 +221,8 @@ SHARED_FUNCTION void block_factor_whole(const block_state *s)
 	const block_hat_table whole = block_hats_whole(s);
 	ROLLED
 	for (int n = 0; n < whole.count; n++)
-		block_eliminate_hat(whole, n, block_hat_inverse(whole.rows[n * whole.band], whole.way[n]));
+		block_eliminate_hat(whole, n, whole.count,
+		                    block_hat_inverse(whole.rows[n * whole.band], whole.way[n]));
 }
 
 /* Factors a line's rows of the lines apart. A hat without a pivot among all has none here. */
@@ -229,11 +231,12 @@ SHARED_FUNCTION void block_factor_apart(const block_state *s, int line)
 	const real zero = SPREAD(LITERAL(0.0));
 	const block_hat_table whole = block_hats_whole(s);
 	const block_hat_table apart = block_hats_apart(s);
+	const int end = (line + 1) * s->hats;
 	ROLLED
-	for (int n = line * s->hats; n < (line + 1) * s->hats; n++) {
+	for (int n = line * s->hats; n < end; n++) {
 		const real inverse = block_hat_inverse(apart.rows[n * apart.band], apart.way[n]);
 		const mask has = whole.rows[n * whole.band] > zero;
-		block_eliminate_hat(apart, n, CHOOSE(has, inverse, zero));
+		block_eliminate_hat(apart, n, end, CHOOSE(has, inverse, zero));
 	}
 }
 

@@ -3,6 +3,8 @@
  * weights keeps its lanes busy. */
 #include "support/search_equal.h"
 
+#include "batch/block_engine.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -82,6 +84,47 @@ static void test_shapes_equal_the_c_path(void **state)
 	search_case_close(&c);
 }
 
+/* A device that has memory of its own gets copies and gives copies back: the same ends. */
+static void test_copies_equal_the_c_path(void **state)
+{
+	(void)state;
+	search_case c = search_case_open("npl_parent", 0.01, true);
+	batten_search_problem problems[EQUAL_COUNT];
+	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
+	double *y = calloc(2 * EQUAL_COUNT * c.nodes, sizeof *y);
+	assert_non_null(y);
+	double *known_y = y + EQUAL_COUNT * c.nodes;
+	size_t which[EQUAL_COUNT];
+	for (size_t p = 0; p < EQUAL_COUNT; p++)
+		which[p] = EQUAL_COUNT - 1 - p;
+	search_equal_problems(&c, problems);
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.algorithm = BATTEN_ALGORITHM_BLOCK;
+	options.device = BATTEN_DEVICE_REFERENCE;
+	options.lanes = 8;
+	options.work_group = 1;
+	assert_int_equal(batten_search_batch(c.context, &c.grid, EQUAL_COUNT, problems, &options,
+	                                     known_y, known, NULL),
+	                 BATTEN_OK);
+	search_plan *plan = NULL;
+	batch_engine *engine = NULL;
+	batten_device device;
+	assert_int_equal(search_plan_create(c.context, &c.grid, EQUAL_COUNT, problems, &options, &plan),
+	                 BATTEN_OK);
+	assert_int_equal(batten_device_describe(c.context, 0, &device), BATTEN_OK);
+	if (block_engine_open(plan, 0, &device, &engine, NULL) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(c.context));
+	engine->copies = true;
+	assert_int_equal(block_engine_run(engine, plan, problems, which, EQUAL_COUNT, y, results, NULL),
+	                 BATTEN_OK);
+	engine->copies = false;
+	search_equal_compare(&c, y, results, known_y, known);
+	search_plan_destroy(plan);
+	free(y);
+	search_case_close(&c);
+}
+
 static void test_lanes_stay_busy(void **state)
 {
 	(void)state;
@@ -112,6 +155,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_shapes_equal_the_c_path),
+		cmocka_unit_test(test_copies_equal_the_c_path),
 		cmocka_unit_test(test_lanes_stay_busy),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

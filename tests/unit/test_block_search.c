@@ -259,6 +259,89 @@ static void test_slopes_by_formula(void **state)
 	search_case_close(&c);
 }
 
+/* A stream whose source uses one set of arrays again and again. */
+typedef struct noisy_stream {
+	noisy_hull *hull;
+	size_t count, taken, given, bad; /* bad: the search that is refused */
+	batten_status source_says, sink_says;
+	double ends[5];
+	batten_search_end how[5];
+} noisy_stream;
+
+static batten_status next_hull(void *user, size_t index, batten_search_problem *problem)
+{
+	noisy_stream *s = user;
+	assert_int_equal(index, s->taken);
+	assert_null(problem->start_m);
+	if (index == s->count)
+		return s->source_says;
+	s->taken++;
+	make_noisy(s->hull, (uint32_t)index, 0.01);
+	*problem = problem_of(s->hull, index == s->bad ? -1.0 : 40.96 * (double)(index + 1));
+	return BATTEN_OK;
+}
+
+static batten_status take_end(void *user, size_t index, const batten_search_result *result,
+                              const double *y_m)
+{
+	noisy_stream *s = user;
+	assert_int_equal(index, s->given++);
+	s->how[index] = result->end;
+	s->ends[index] = result->objective_end;
+	assert_true(result->end == BATTEN_SEARCH_REFUSED || y_m[s->hull->nx + 1] >= 0.0);
+	return s->sink_says;
+}
+
+static void test_stream(void **state)
+{
+	(void)state;
+	batten_context *context = NULL;
+	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
+	noisy_hull hull = { .nx = 21, .nz = 20 };
+	for (size_t i = 0; i < hull.nx; i++)
+		hull.x[i] = 0.8 * (double)i;
+	for (size_t k = 0; k < hull.nz; k++)
+		hull.z[k] = (double)k / 19.0;
+	const batten_grid grid = { hull.nx, hull.nz, hull.x, hull.z };
+	const batten_search_options options = block_options(BATTEN_F64);
+	noisy_stream s = { .hull = &hull, .count = 5, .bad = 99 };
+	batten_run told;
+	size_t count = 99;
+	assert_int_equal(
+		batten_fair_stream(context, &grid, next_hull, take_end, &s, &options, &count, &told),
+		BATTEN_OK);
+	assert_int_equal(count, 5);
+	assert_true(told.strict && strcmp(told.device, "reference") == 0);
+	for (size_t p = 0; p < 5; p++) {
+		make_noisy(&hull, (uint32_t)p, 0.01);
+		const double known = run(context, &hull, 40.96 * (double)(p + 1), &options).objective_end;
+		assert_memory_equal(&s.ends[p], &known, sizeof known);
+	}
+	s = (noisy_stream){ .hull = &hull, .count = 3, .bad = 1 };
+	assert_int_equal(
+		batten_fair_stream(context, &grid, next_hull, take_end, &s, &options, &count, NULL),
+		BATTEN_INCOMPLETE);
+	assert_int_equal(s.how[0], BATTEN_SEARCH_CONVERGED);
+	assert_int_equal(s.how[1], BATTEN_SEARCH_REFUSED);
+	assert_int_equal(count, 3);
+	s = (noisy_stream){ .hull = &hull, .count = 3, .bad = 99, .source_says = BATTEN_INPUT };
+	assert_int_equal(
+		batten_fair_stream(context, &grid, next_hull, take_end, &s, &options, &count, NULL),
+		BATTEN_INPUT);
+	assert_int_equal(s.given, 0);
+	s = (noisy_stream){ .hull = &hull, .count = 3, .bad = 99, .sink_says = BATTEN_IO };
+	assert_int_equal(
+		batten_fair_stream(context, &grid, next_hull, take_end, &s, &options, &count, NULL),
+		BATTEN_IO);
+	assert_int_equal(s.given, 1);
+	s = (noisy_stream){ .hull = &hull };
+	assert_int_equal(
+		batten_fair_stream(context, &grid, next_hull, take_end, &s, &options, &count, NULL),
+		BATTEN_OK);
+	assert_int_equal(count, 0);
+	batten_context_destroy(context);
+}
+
 static void test_refusals(void **state)
 {
 	(void)state;
@@ -301,6 +384,7 @@ int main(void)
 		cmocka_unit_test(test_iterations_on_finer_grids),
 		cmocka_unit_test(test_robust_against_noise),
 		cmocka_unit_test(test_slopes_by_formula),
+		cmocka_unit_test(test_stream),
 		cmocka_unit_test(test_refusals),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,6 +113,28 @@ BATTEN_API batten_status batten_search_batch(batten_context *context, const batt
                                              const batten_search_options *options, double *y_m,
                                              batten_search_result *results, batten_run *run);
 
+/* Searches of one grid as a source gives them, in bounded memory: they run as batches of up to 1024, of 16
+ * MiB at most where they are more than one, whatever their number.
+ *
+ * The source is asked for search 0, 1, 2 ... and fills the problem, which comes zeroed; start_m left NULL
+ * ends the stream. Its arrays are read before the source is asked again, so that one set of them will do.
+ * The sink gets the results in the same order, y_m [waterlines][stations], valid during the call. What
+ * either returns other than OK ends the stream and is its status; nothing is asked for or handed over
+ * afterwards. Both are called by the thread that called, one at a time. */
+typedef batten_status (*batten_fair_source)(void *user, size_t index,
+                                            batten_search_problem *problem);
+typedef batten_status (*batten_fair_sink)(void *user, size_t index,
+                                          const batten_search_result *result, const double *y_m);
+
+/* count, run: may be NULL; count gets how many results the sink was given, also on failure. run as of the
+ * batches together: strict when all were, the first warning. A stream without any search is OK. Each
+ * result is that of batten_search_batch(). Returns INCOMPLETE when a search was refused or met its limit.
+ * Errors: as batten_search_batch(); USAGE (a start without target or bounds); those of source and sink. */
+BATTEN_API batten_status batten_fair_stream(batten_context *context, const batten_grid *grid,
+                                            batten_fair_source source, batten_fair_sink sink,
+                                            void *user, const batten_search_options *options,
+                                            size_t *count, batten_run *run);
+
 /* What the end of a search is worth, by the exact derivatives of its objective in double, whatever
  * probed it: free are the offsets that are not fixed, nor held at a bound by the gradient. The
  * objective is not convex, so all of it is local: it knows nothing of other minima. */
