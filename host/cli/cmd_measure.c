@@ -8,7 +8,7 @@
 
 static const cli_command command = {
 	.name = "measure",
-	.usage = "HULL.csv|SURFACE.json [OPTION ...]",
+	.usage = "HULL.csv|SURFACE.json ...|MESH.stl|MESH.obj [OPTION ...]",
 	.summary = "fairness numbers, energies, form coefficients and hydrostatics of a hull",
 	.example = "  batten measure data/hulls/wigley.csv --json\n"
 			   "  batten measure data/hulls/bsra_trawler.csv --curves-of-form 10 --out form.svg\n"
@@ -19,7 +19,11 @@ static const cli_command command = {
 		"defined for this hull. Curves and tables go to FILE, as CSV, JSON or SVG by its ending, else\n"
 		"to standard output; their N heights are equal steps up to --draft, else to the highest\n"
 		"waterline. A surface (batten surface --out) is integrated by Gauss points and needs --draft\n"
-		"or --displacement; the stations of its tables are equally spaced.\n",
+		"or --displacement; the stations of its tables are equally spaced. So does a mesh of triangles,\n"
+		"in metres and this frame, counter-clockwise seen from the water, a half hull where nothing lies\n"
+		"to starboard; it may be open along the deck and at flat ends. Several surfaces of one topology\n"
+		"are measured in one go, a row each for every draft; those that a draft is beyond say so, and\n"
+		"the exit code is 1.\n",
 };
 
 static const char *const quadratures[] = { "spline", "simpson", "trapezoid" };
@@ -28,7 +32,7 @@ static const char *const quadratures[] = { "spline", "simpson", "trapezoid" };
 static const char state_text[] = "moulded, bare hull, upright";
 static const char transom_text[] = "left out of wetted_surface_m2";
 
-enum { WARNINGS_MOST = 16, HEIGHTS_MOST = 4096 };
+enum { WARNINGS_MOST = 16, HEIGHTS_MOST = 4096, FILES_MOST = 4096 };
 
 /* Measures, then what only hydrostatics has, where it exists. */
 struct found {
@@ -60,8 +64,8 @@ static void print_text(const measure_job *job, const struct found *found)
 		             job->name, batten_hull_station_count(job->hull),
 		             batten_hull_waterline_count(job->hull), measure_rule(job));
 	else
-		(void)printf("%s: B-spline surface; metres, frame ap-fwd; quadrature: %s\n", job->name,
-		             measure_rule(job));
+		(void)printf("%s: %s; metres, frame ap-fwd; quadrature: %s\n", job->name,
+		             job->mesh ? "triangles" : "B-spline surface", measure_rule(job));
 	(void)printf("%s; transom %s\n\n", state_text, transom_text);
 	for (size_t i = 0; i < BATTEN_MEASURE_COUNT; i++)
 		print_line(batten_measure_name(i), values[i], batten_measure_text(i));
@@ -99,6 +103,9 @@ static batten_status take_found(const measure_job *job, batten_context *context,
 		options.quadrature = job->options.quadrature;
 		options.density_t_per_m3 = job->options.density_t_per_m3;
 		status = batten_hull_measure(context, job->hull, &options, &found->measures);
+	} else if (job->mesh) {
+		status = batten_mesh_measure(context, job->mesh, &job->options, job->drafts_m[0],
+		                             &found->measures);
 	} else {
 		status = batten_surface_measure(context, job->surface, &job->options, job->drafts_m[0],
 		                                &found->measures);
@@ -161,7 +168,8 @@ static batten_status read_drafts(measure_job *job)
 
 static bool wants_table(const measure_job *job)
 {
-	return job->curves_of_form || job->bonjean || job->section_areas || job->draft_count > 1;
+	return job->curves_of_form || job->bonjean || job->section_areas || job->draft_count > 1 ||
+	       job->path_count > 1;
 }
 
 static bool good_ending(const char *path)
@@ -172,6 +180,23 @@ static bool good_ending(const char *path)
 		if (strcmp(dot, endings[i]) == 0)
 			return true;
 	return false;
+}
+
+/* Of several files only the table over drafts is made. */
+static batten_status check_many(const measure_job *job)
+{
+	for (size_t i = 0; i < job->path_count; i++)
+		if (!measure_ends_in(job->paths[i], ".json"))
+			return cli_usage("measure",
+			                 "found %zu files, '%s' among them: several are to be surfaces, "
+			                 ".json",
+			                 job->path_count, job->paths[i]);
+	if (job->draft_count == 0 || job->curves_of_form || job->bonjean || job->section_areas)
+		return cli_usage("measure",
+		                 "of several surfaces --draft T[,T...] was expected, and no curves");
+	if (job->out && measure_ends_in(job->out, ".svg"))
+		return cli_usage("measure", "--out: of several surfaces a .csv or .json was expected");
+	return BATTEN_OK;
 }
 
 static batten_status check_request(const measure_job *job)
@@ -218,29 +243,37 @@ static batten_status read_command(measure_job *job, int argc, char **argv, bool 
 		{ "kg", CLI_NUMBER, &job->options.kg_m, "Z",
 		  "centre of gravity above the baseline in metres" },
 		{ "lbp", CLI_NUMBER, &job->options.lbp_m, "L",
-		  "of a surface, in metres (default: x of its foremost point)" },
+		  "of a surface or mesh, in metres (default: x of its foremost point)" },
 		{ "quadrature", CLI_TEXT, &job->quadrature, "RULE",
 		  "of offsets: spline (default), simpson or trapezoid" },
 		{ "density", CLI_NUMBER, &job->options.density_t_per_m3, "RHO",
 		  "of the water in t/m3 (1.025)" },
+		{ "device", CLI_DEVICE, &job->device, "D",
+		  "of several surfaces: auto (default), reference or an index" },
 		{ 0 },
 	};
-	size_t count = 0;
-	batten_status status = cli_parse(&command, argc, argv, options, &job->common, &job->path, 1,
-	                                 &count, done);
+	static const char *paths[FILES_MOST];
+	batten_status status = cli_parse(&command, argc, argv, options, &job->common, paths, FILES_MOST,
+	                                 &job->path_count, done);
 	if (status != BATTEN_OK || *done)
 		return status;
-	if (count != 1)
-		return cli_usage("measure", "an offsets file was expected, or a surface");
+	if (job->path_count < 1)
+		return cli_usage("measure", "an offsets file was expected, a surface or a mesh");
+	job->path = paths[0];
+	job->paths = paths;
 	status = read_drafts(job);
 	if (status == BATTEN_OK)
 		status = read_quadrature(job);
-	return status == BATTEN_OK ? check_request(job) : status;
+	if (status == BATTEN_OK)
+		status = check_request(job);
+	return status == BATTEN_OK && job->path_count > 1 ? check_many(job) : status;
 }
 
 batten_status cli_measure(int argc, char **argv)
 {
-	measure_job job = { .quadrature = "spline", .displacement_t = NAN };
+	measure_job job = { .quadrature = "spline",
+		                .displacement_t = NAN,
+		                .device = BATTEN_DEVICE_AUTO };
 	batten_hydrostatics_options_default(&job.options);
 	bool done = false;
 	batten_status status = read_command(&job, argc, argv, &done);
@@ -250,8 +283,9 @@ batten_status cli_measure(int argc, char **argv)
 	status = cli_context_create("measure", &job.common, &context);
 	if (status != BATTEN_OK)
 		return status;
-	status = measure_open(&job, context);
-	if (status == BATTEN_OK)
+	const bool many = job.path_count > 1;
+	status = many ? measure_many(&job, context) : measure_open(&job, context);
+	if (status == BATTEN_OK && !many)
 		status = wants_table(&job) ? measure_table(&job, context) : measure_one(&job, context);
 	measure_close(&job);
 	batten_context_destroy(context);

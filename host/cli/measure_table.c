@@ -43,6 +43,11 @@ static batten_status print_table_json(const batten_table *table)
 	json_t *rows = json_array();
 	for (size_t i = 0; rows && i < table->row_count; i++) {
 		json_t *row = json_object();
+		for (size_t k = 0; row && k < table->text_count; k++) {
+			const char *text = table->texts[i * table->text_count + k];
+			(void)json_object_set_new(row, table->text_columns[k],
+			                          text ? json_string(text) : json_null());
+		}
 		for (size_t k = 0; row && k < table->column_count; k++)
 			(void)json_object_set_new(row, table->columns[k],
 			                          cli_json_number(table->values[i * table->column_count + k]));
@@ -61,10 +66,28 @@ static void print_number(double value)
 		(void)printf(" %14.8g", value);
 }
 
+/* The end of a text, as paths tell most there; no control characters. */
+static void print_text(const char *text)
+{
+	enum { WIDE = 14 };
+	char shown[WIDE + 1];
+	const size_t length = text ? strlen(text) : 0;
+	(void)snprintf(shown, sizeof shown, "%s",
+	               text ? text + (length > WIDE ? length - WIDE : 0) : "-");
+	cli_clean(shown);
+	(void)printf(" %14s", shown);
+}
+
 /* Columns down, as there are more of them than drafts; areas as they are. */
 static void print_table_text(const batten_table *table, bool across)
 {
 	(void)printf("%s: frame ap-fwd; quadrature: %s\n\n", table->name, table->quadrature);
+	for (size_t k = 0; across && k < table->text_count; k++) {
+		(void)printf("%-22s", table->text_columns[k]);
+		for (size_t i = 0; i < table->row_count; i++)
+			print_text(table->texts[i * table->text_count + k]);
+		(void)fputc('\n', stdout);
+	}
 	for (size_t k = 0; across && k < table->column_count; k++) {
 		(void)printf("%-22s", table->columns[k]);
 		for (size_t i = 0; i < table->row_count; i++)
@@ -80,12 +103,6 @@ static void print_table_text(const batten_table *table, bool across)
 	}
 	if (!across)
 		(void)fputc('\n', stdout);
-}
-
-static bool is_svg(const char *path)
-{
-	const size_t length = strlen(path);
-	return length > 4 && strcmp(path + length - 4, ".svg") == 0;
 }
 
 static batten_status put_chart(const struct maker *m)
@@ -104,21 +121,27 @@ static batten_status put_chart(const struct maker *m)
 	return status == BATTEN_OK ? status : cli_failure("measure", m->context, status);
 }
 
-static batten_status put_table(const struct maker *m, batten_table *table, bool across)
+batten_status measure_put_table(const measure_job *job, batten_context *context,
+                                const batten_table *table, bool across)
 {
-	const measure_job *job = m->job;
-	table->name = job->name;
-	table->quadrature = measure_rule(job);
 	if (!job->out) {
 		if (job->common.json)
 			return print_table_json(table);
 		print_table_text(table, across);
 		return BATTEN_OK;
 	}
-	if (is_svg(job->out))
+	const batten_status status = batten_table_write(context, table, job->out);
+	return status == BATTEN_OK ? status : cli_failure("measure", context, status);
+}
+
+static batten_status put_table(const struct maker *m, batten_table *table, bool across)
+{
+	const measure_job *job = m->job;
+	table->name = job->name;
+	table->quadrature = measure_rule(job);
+	if (job->out && measure_ends_in(job->out, ".svg"))
 		return put_chart(m);
-	const batten_status status = batten_table_write(m->context, table, job->out);
-	return status == BATTEN_OK ? status : cli_failure("measure", m->context, status);
+	return measure_put_table(job, m->context, table, across);
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -167,11 +190,10 @@ static batten_status table_over_drafts(struct maker *m)
  * Along the ship
  * --------------------------------------------------------------------------------------------- */
 
-/* The stations of a table, or as many equal intervals of a surface. */
+/* The stations of a table, or as many equal intervals of a surface or mesh. */
 static batten_status take_sections(struct maker *m, size_t intervals)
 {
 	const measure_job *job = m->job;
-	double aft = INFINITY, fore = -INFINITY;
 	m->section_count = job->hull ? batten_hull_station_count(job->hull) : intervals + 1;
 	m->x = malloc(m->section_count * sizeof *m->x);
 	if (!m->x)
@@ -180,13 +202,9 @@ static batten_status take_sections(struct maker *m, size_t intervals)
 		memcpy(m->x, batten_hull_x_m(job->hull), m->section_count * sizeof *m->x);
 		return BATTEN_OK;
 	}
-	const batten_surface_net net = batten_surface_describe(job->surface);
-	for (size_t i = 0; i < net.count_u * net.count_v; i++) {
-		aft = fmin(aft, net.poles_m[3 * i]);
-		fore = fmax(fore, net.poles_m[3 * i]);
-	}
 	for (size_t i = 0; i <= intervals; i++)
-		m->x[i] = aft + (fore - aft) * (double)i / (double)intervals;
+		m->x[i] = job->aftmost_m +
+		          (job->foremost_m - job->aftmost_m) * (double)i / (double)intervals;
 	return BATTEN_OK;
 }
 
@@ -231,15 +249,8 @@ static batten_status areas_on_grid(struct maker *m)
 	m->areas = malloc(m->section_count * m->height_count * sizeof *m->areas);
 	if (!m->areas)
 		return no_memory();
-	const batten_status status = job->hull
-	                                 ? batten_hull_section_areas(m->context, job->hull,
-	                                                             &job->options, m->height_count,
-	                                                             m->heights, m->areas)
-	                                 : batten_surface_section_areas(m->context, job->surface,
-	                                                                &job->options, m->section_count,
-	                                                                m->x, m->height_count,
-	                                                                m->heights, m->areas);
-	return status == BATTEN_OK ? status : cli_failure("measure", m->context, status);
+	return measure_sections(job, m->context, m->section_count, m->x, m->height_count, m->heights,
+	                        m->areas);
 }
 
 static batten_status bonjean(struct maker *m)

@@ -236,7 +236,9 @@ batten_mesh_facts batten_mesh_describe(const batten_mesh *mesh)
 		                        .first_open_triangle = first,
 		                        .area_m2 = mesh->area_m2,
 		                        .lowest_m = arrays->lowest_m,
-		                        .highest_m = arrays->highest_m };
+		                        .highest_m = arrays->highest_m,
+		                        .aftmost_m = arrays->aftmost_m,
+		                        .foremost_m = arrays->foremost_m };
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -323,6 +325,18 @@ batten_status batten_mesh_hydrostatics(batten_context *context, const batten_mes
 	batten_status status = open_form(context, mesh, options, &chosen, &body);
 	if (status == BATTEN_OK)
 		status = quantities_over_drafts(&body, &chosen, count, drafts_m, out);
+	return status;
+}
+
+batten_status batten_mesh_measure(batten_context *context, const batten_mesh *mesh,
+                                  const batten_hydrostatics_options *options, double draft_m,
+                                  batten_measures *out)
+{
+	batten_hydrostatics found;
+	const batten_status status = batten_mesh_hydrostatics(context, mesh, options, 1, &draft_m,
+	                                                      &found);
+	if (status == BATTEN_OK)
+		*out = quantities_as_measures(&found);
 	return status;
 }
 

@@ -160,6 +160,18 @@ void quantities_take(const floating_body *body, const hydrostatics *integrals, d
 	*out = made;
 }
 
+batten_measures quantities_as_measures(const batten_hydrostatics *found)
+{
+	batten_measures made;
+	double *numbers = (double *)&made;
+	for (size_t i = 0; i < sizeof made / sizeof *numbers; i++)
+		numbers[i] = NAN;
+#define TAKE_QUANTITY(name, text) made.name = found->name;
+	BATTEN_FORM_LIST(TAKE_QUANTITY)
+#undef TAKE_QUANTITY
+	return made;
+}
+
 /* ------------------------------------------------------------------------------------------------
  * Over drafts
  * --------------------------------------------------------------------------------------------- */

@@ -33,6 +33,9 @@ batten_status quantities_check_draft(batten_context *context, double lowest_m, d
 void quantities_take(const floating_body *body, const hydrostatics *integrals, double draft_m,
                      const batten_hydrostatics_options *options, batten_hydrostatics *out);
 
+/* What is also a measure, the others NaN. */
+batten_measures quantities_as_measures(const batten_hydrostatics *found);
+
 /* count drafts; out untouched on failure. Errors: those of calculate, USAGE, MEMORY. */
 batten_status quantities_over_drafts(const floating_body *body,
                                      const batten_hydrostatics_options *options, size_t count,

@@ -120,12 +120,7 @@ batten_status batten_surface_measure(batten_context *context, const batten_surfa
 		status = batten_surface_energy_batch(context, 1, &surface, &how, &energies, NULL);
 	if (status != BATTEN_OK)
 		return status;
-	batten_measures made = {
-		.fn_per_m2 = NAN, .fn_sections_per_m2 = NAN, .noise_m = NAN, .inflections = NAN
-	};
-#define TAKE_QUANTITY(name, text) made.name = found.name;
-	BATTEN_FORM_LIST(TAKE_QUANTITY)
-#undef TAKE_QUANTITY
+	batten_measures made = quantities_as_measures(&found);
 	made.energy_bending = energies.bending;
 	made.energy_mean = energies.mean;
 	made.energy_gauss = energies.gauss;

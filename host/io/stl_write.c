@@ -58,12 +58,15 @@ static batten_status sample(batten_context *context, const batten_surface *surfa
 	return status;
 }
 
-/* A triangle that is more than a line; returns whether it was written. */
+/* A triangle that is more than a line and not in the centreplane, where its image would lie on it; returns
+ * whether it was written. */
 static bool put_triangle(FILE *stream, const double *a, const double *b, const double *c,
                          bool mirror)
 {
 	const double side = mirror ? -1.0 : 1.0;
 	const double *corners[3] = { a, mirror ? c : b, mirror ? b : c };
+	if ((float)a[1] == 0 && (float)b[1] == 0 && (float)c[1] == 0)
+		return false;
 	double edge[2][3];
 	for (size_t d = 0; d < 3; d++) {
 		const double sign = d == 1 ? side : 1.0;

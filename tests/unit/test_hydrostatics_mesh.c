@@ -2,6 +2,8 @@
  * order on Wigley's hull, whose printed errors are met; what a mesh must be. */
 #include "unit/hydrostatics_fixture.h"
 
+#include <unistd.h>
+
 static batten_mesh *mesh_of(batten_context *context, size_t vertex_count, const double *vertices,
                             size_t triangle_count, const uint32_t *triangles, bool half)
 {
@@ -240,12 +242,42 @@ static void holes_and_drafts(void **state)
 	batten_context_destroy(context);
 }
 
+/* A surface as triangles through a binary STL file: its corners are joined again, and it measures what the
+ * surface does but for its facets. */
+static void through_stl(void **state)
+{
+	(void)state;
+	batten_context *context = make_context();
+	batten_surface *surface = wigley_surface(context, 100, 10, 6.25);
+	batten_mesh *mesh = NULL;
+	char path[] = "/tmp/batten_mesh_XXXXXX.stl";
+	const int file = mkstemps(path, 4);
+	assert_true(file >= 0);
+	(void)close(file);
+	assert_int_equal(batten_surface_write_stl(context, surface, 20, path), BATTEN_OK);
+	if (batten_mesh_read(context, path, &mesh) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(context));
+	(void)unlink(path);
+	const batten_mesh_facts facts = batten_mesh_describe(mesh);
+	/* both halves, without the triangle at the forefoot that lies in the centreplane; open at the deck */
+	assert_int_equal(facts.triangle_count, 2 * (2 * 20 * 20 - 1));
+	assert_int_equal(facts.open_edge_count, 2 * 20);
+	const batten_hydrostatics_options options = with_lbp(100);
+	const batten_hydrostatics found = mesh_at(context, mesh, &options, 6.25);
+	assert_relative(found.volume_m3, 25000.0 / 9, 5e-3);
+	assert_relative(found.kb_m, 3.90625, 1e-3);
+	assert_relative(found.beam_max_m, 10, 1e-6);
+	batten_mesh_destroy(mesh);
+	batten_surface_destroy(surface);
+	batten_context_destroy(context);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(pyramid_of_the_book), cmocka_unit_test(barge),
-		cmocka_unit_test(wigley_errors),       cmocka_unit_test(bad_meshes),
-		cmocka_unit_test(holes_and_drafts),
+		cmocka_unit_test(through_stl), cmocka_unit_test(pyramid_of_the_book),
+		cmocka_unit_test(barge),       cmocka_unit_test(wigley_errors),
+		cmocka_unit_test(bad_meshes),  cmocka_unit_test(holes_and_drafts),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,11 +128,21 @@ BATTEN_API batten_status batten_mesh_create(batten_context *context, const batte
                                             batten_mesh **out);
 BATTEN_API void batten_mesh_destroy(batten_mesh *mesh);
 
+/* Reads triangles from a file that ends in .stl (binary or text; equal places are one vertex) or .obj (v and
+ * f lines; polygons are cut into fans): metres, frame ap-fwd, a half hull where no vertex lies to starboard.
+ * parse takes text [length] with the name that tells its format. Errors: IO, INPUT (the file, and its line
+ * or the triangle, counted from 0, as batten_mesh_create()), USAGE (another ending), MEMORY. */
+BATTEN_API batten_status batten_mesh_read(batten_context *context, const char *path,
+                                          batten_mesh **out);
+BATTEN_API batten_status batten_mesh_parse(batten_context *context, const char *name,
+                                           const char *text, size_t length, batten_mesh **out);
+
 typedef struct batten_mesh_facts {
 	size_t vertex_count, triangle_count, edge_count;
 	size_t open_edge_count; /* of one triangle only; not counted: those of a half hull in y = 0 */
 	size_t first_open_triangle;          /* with such an edge; triangle_count without one */
 	double area_m2, lowest_m, highest_m; /* area of all triangles, both sides of a half hull */
+	double aftmost_m, foremost_m;
 } batten_mesh_facts;
 BATTEN_API batten_mesh_facts batten_mesh_describe(const batten_mesh *mesh);
 
@@ -142,6 +152,10 @@ BATTEN_API batten_status batten_mesh_hydrostatics(batten_context *context, const
                                                   const batten_hydrostatics_options *options,
                                                   size_t count, const double *drafts_m,
                                                   batten_hydrostatics *out);
+/* Its hydrostatics as measures; the others are NaN. */
+BATTEN_API batten_status batten_mesh_measure(batten_context *context, const batten_mesh *mesh,
+                                             const batten_hydrostatics_options *options,
+                                             double draft_m, batten_measures *out);
 BATTEN_API batten_status batten_mesh_draft_at(batten_context *context, const batten_mesh *mesh,
                                               const batten_hydrostatics_options *options,
                                               double displacement_t, double *draft_m);
