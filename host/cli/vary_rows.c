@@ -189,6 +189,29 @@ static bool read_column(const vary_request *request, const vary_rows *rows, cons
 	}
 }
 
+/* What a column is to be named. */
+static void list_names(const vary_request *request, char *expected, size_t size)
+{
+	char names[256] = "";
+	size_t used = 0;
+	for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && used < sizeof names; i++)
+		if (numbers[i].takers & (1u << request->options.method)) {
+			const int length = snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "",
+			                            numbers[i].name);
+			used += length > 0 ? (size_t)length : 0;
+		}
+	if (request->options.method == BATTEN_VARY_AVERAGE)
+		(void)snprintf(names, sizeof names,
+		               request->other_count == 1 ? "weight" : "weight1 to weight%zu",
+		               request->other_count);
+	else if (request->options.method == BATTEN_VARY_STRETCH)
+		(void)snprintf(names, sizeof names, "a place along the hull, 0 to 1");
+	else if (request->options.method == BATTEN_VARY_FREE_FORM)
+		(void)snprintf(names, sizeof names, "lattice");
+	(void)snprintf(expected, size, "a name that %s takes: %s",
+	               batten_vary_method_name((size_t)request->options.method), names);
+}
+
 static batten_status read_header(struct reader *reader, vary_rows *rows)
 {
 	char *line = next_line(reader);
@@ -204,8 +227,11 @@ static batten_status read_header(struct reader *reader, vary_rows *rows)
 		if (rows->column_count == VARY_COLUMNS_MOST)
 			return fail(reader, number, cell, "64 columns at most");
 		vary_column *column = &rows->columns[rows->column_count];
-		if (!read_column(reader->request, rows, cell, column))
-			return fail(reader, number, cell, "a number this method takes (--help)");
+		if (!read_column(reader->request, rows, cell, column)) {
+			char expected[384];
+			list_names(reader->request, expected, sizeof expected);
+			return fail(reader, number, cell, expected);
+		}
 		for (size_t i = 0; i < rows->column_count; i++)
 			if (rows->columns[i].name && strcmp(rows->columns[i].name, cell) == 0)
 				return fail(reader, number, cell, "each name once");

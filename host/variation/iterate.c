@@ -197,8 +197,7 @@ static batten_status find_limit(const struct task *task, double limit, double *p
 
 static batten_status explain(const struct task *task)
 {
-	char why[256], range[256];
-	size_t used = 0;
+	char why[256], text[640];
 	double least = 0, most = 0;
 	bool any = false;
 	(void)snprintf(why, sizeof why, "%s", batten_context_error(task->parent->context));
@@ -211,18 +210,9 @@ static batten_status explain(const struct task *task)
 		status = find_limit(task, -4, &least);
 	if (status != BATTEN_OK)
 		return status;
-	for (size_t i = 0; i < task->count && used < sizeof range; i++) {
-		const variation_target *target = &task->targets[i];
-		const double parent = variation_target_value(target, &task->parent->measures);
-		const double step = task->asked[i] / target->scale + target->zero - parent;
-		const double a = parent + least * step, b = parent + most * step;
-		const int length = snprintf(range + used, sizeof range - used, "%s%s %.4g to %.4g",
-		                            i > 0 ? ", " : "", target->name, fmin(a, b), fmax(a, b));
-		used += length > 0 ? (size_t)length : 0;
-	}
-	return batten_fail(task->parent->context, BATTEN_INPUT,
-	                   "%s: out of reach (%s); in the proportion asked for %s can be reached",
-	                   batten_vary_method_name((size_t)task->options->method), why, range);
+	variation_tell_reach(text, sizeof text, task->options->method, why, task->count, task->targets,
+	                     task->asked, &task->parent->measures, least, most);
+	return batten_fail(task->parent->context, BATTEN_INPUT, "%s", text);
 }
 
 /* ------------------------------------------------------------------------------------------------

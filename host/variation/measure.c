@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Rows of one piece of a batch, whose outcomes are held at once. */
 enum { PIECE = 4096 };
@@ -19,6 +20,8 @@ struct batch {
 	double *asked, *y, *outcomes; /* of a piece */
 	size_t *singly;               /* rows of a piece that the kernel leaves to the host */
 	size_t singly_count, singly_total;
+	size_t *far; /* rows of a piece that are out of reach, by their numbers in it */
+	size_t far_count;
 };
 
 /* ------------------------------------------------------------------------------------------------
@@ -92,7 +95,6 @@ static batten_status take_row(struct batch *b, size_t which, size_t i)
 {
 	const double *outcome = b->outcomes + i * variants_plan_outcome(&b->plan);
 	const batten_vary_options options = measure_row_options(&b->task, which);
-	const char *method = batten_vary_method_name((size_t)options.method);
 	batten_vary_result *result = &b->task.v->results[which];
 	*result = (batten_vary_result){ .passes = (unsigned)outcome[VARIANTS_OUT_TURNS],
 		                            .cp = outcome[VARIANTS_OUT_CP],
@@ -107,11 +109,14 @@ static batten_status take_row(struct batch *b, size_t which, size_t i)
 		b->singly[b->singly_count++] = which;
 		return BATTEN_OK;
 	} else if (outcome[VARIANTS_OUT_END] != VARIANTS_END_GOOD) {
-		const bool folded = outcome[VARIANTS_OUT_END] == VARIANTS_END_FOLDED;
-		(void)snprintf(result->reason, sizeof result->reason,
-		               folded ? "%s: out of reach, sections would run into each other"
-		                      : "%s: out of reach, still off by %.3g after %u passes",
-		               method, outcome[VARIANTS_OUT_OFF], result->passes);
+		if (outcome[VARIANTS_OUT_END] == VARIANTS_END_FOLDED)
+			(void)snprintf(result->reason, sizeof result->reason,
+			               "sections would run into each other");
+		else
+			(void)snprintf(result->reason, sizeof result->reason,
+			               "after %u passes still off by %.3g", result->passes,
+			               outcome[VARIANTS_OUT_OFF]);
+		b->far[b->far_count++] = i;
 		measure_leave_empty(&b->task, which, BATTEN_INPUT);
 	} else {
 		status = keep(b, which, i);
@@ -121,6 +126,52 @@ static batten_status take_row(struct batch *b, size_t which, size_t i)
 	if (b->task.v->outcomes)
 		tell(b, &options, result, &b->task.v->outcomes[which]);
 	return BATTEN_OK;
+}
+
+/* Puts the range that can be reached into the reason of row which. */
+static void explain(struct batch *b, size_t which, const double parts[2])
+{
+	const batten_vary_options options = measure_row_options(&b->task, which);
+	const batten_variants *v = b->task.v;
+	batten_vary_result *result = &v->results[which];
+	variation_target targets[BATTEN_VARY_TARGETS_MOST];
+	double asked[BATTEN_VARY_TARGETS_MOST];
+	char text[384];
+	const size_t count = variation_targets(&options, &b->ready->measures, targets);
+	for (size_t i = 0; i < count; i++)
+		asked[i] = targets[i].asked;
+	if (isnan(parts[0]))
+		(void)snprintf(text, sizeof text, "%s: %s", batten_vary_method_name((size_t)options.method),
+		               result->reason);
+	else
+		variation_tell_reach(text, sizeof text, options.method, result->reason, count, targets,
+		                     asked, &b->ready->measures, parts[0], parts[1]);
+	(void)snprintf(result->reason, sizeof result->reason, "%.119s", text);
+	if (v->outcomes)
+		(void)snprintf(v->outcomes[which].reason, sizeof v->outcomes[which].reason, "%.383s", text);
+}
+
+/* The rows of a piece that are out of reach, all together. */
+static batten_status explain_far(struct batch *b, size_t first)
+{
+	if (b->far_count == 0)
+		return BATTEN_OK;
+	double *parts = batten_allocate(b->task.context, b->far_count, 2 * sizeof *parts);
+	if (!parts)
+		return BATTEN_MEMORY;
+	for (size_t k = 0; k < b->far_count; k++)
+		memmove(b->asked + k * VARIANTS_ASK_COUNT, b->asked + b->far[k] * VARIANTS_ASK_COUNT,
+		        VARIANTS_ASK_COUNT * sizeof *b->asked);
+	/* one pass of the formulas reaches what it reaches */
+	batten_status status = BATTEN_OK;
+	for (size_t k = 0; k < 2 * b->far_count; k++)
+		parts[k] = NAN;
+	if (!b->task.options.first_pass)
+		status = measure_reach(&b->plan, b->far_count, b->asked, parts);
+	for (size_t k = 0; k < b->far_count && status == BATTEN_OK; k++)
+		explain(b, first + b->far[k], parts + 2 * k);
+	batten_release(b->task.context, parts);
+	return status;
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -146,10 +197,12 @@ static batten_status run_piece(struct batch *b, size_t first, size_t count, batt
 	b->plan.asked = b->asked;
 	b->plan.found_y_m = b->y;
 	b->plan.out = b->outcomes;
-	b->singly_count = 0;
+	b->singly_count = b->far_count = 0;
 	batten_status status = variants_batch_run(&b->plan, &told);
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
 		status = take_row(b, first + i, i);
+	if (status == BATTEN_OK)
+		status = explain_far(b, first);
 	if (status == BATTEN_OK)
 		status = measure_on_host(&b->task, b->singly_count, b->singly);
 	b->singly_total += b->singly_count;
@@ -180,8 +233,10 @@ static batten_status make_plan(struct batch *b, size_t piece)
 	b->asked = batten_allocate(task->context, piece, VARIANTS_ASK_COUNT * sizeof(double));
 	b->outcomes = batten_allocate(task->context, piece, outcome);
 	b->singly = batten_allocate(task->context, piece, sizeof *b->singly);
+	b->far = batten_allocate(task->context, piece, sizeof *b->far);
 	b->y = kept ? batten_allocate(task->context, piece, task->nodes * sizeof(double)) : NULL;
-	return b->asked && b->outcomes && b->singly && (!kept || b->y) ? BATTEN_OK : BATTEN_MEMORY;
+	return b->asked && b->outcomes && b->singly && b->far && (!kept || b->y) ? BATTEN_OK
+	                                                                         : BATTEN_MEMORY;
 }
 
 /* The whole batch on the device, piece by piece. *singly gets the rows that the host took. */
@@ -196,6 +251,7 @@ static batten_status run_on_device(const measure_task *task, const variation_par
 	batten_release(task->context, b.asked);
 	batten_release(task->context, b.outcomes);
 	batten_release(task->context, b.singly);
+	batten_release(task->context, b.far);
 	batten_release(task->context, b.y);
 	variants_plan_destroy(&b.plan);
 	*singly = b.singly_total;

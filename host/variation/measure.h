@@ -38,4 +38,10 @@ bool variation_tables_fit(const batten_hull *parent, const batten_vary_options *
 batten_status variation_tables_fill(const variation_parent *parent,
                                     const batten_vary_options *options, variants_plan *plan);
 
+/* Of rows that the plan's device found out of reach: which parts of what they ask for, towards the parent's
+ * other side and towards what is asked, still give variants; parts [count][2] <= 0 and >= 0, NaN where the
+ * parent itself gives none. asked [count][VARIANTS_ASK_COUNT]. The plan's rows and results are replaced.
+ * Errors: those of a batch. */
+batten_status measure_reach(variants_plan *plan, size_t count, const double *asked, double *parts);
+
 #endif

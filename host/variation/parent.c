@@ -137,6 +137,27 @@ static void find_parallel(const batten_hull *hull, variation_span *span)
 	span->parallel_fore = (hull->x_m[last] - span->middle_m) / (span->fore_m - span->middle_m);
 }
 
+/* A section with an empty cell between two points is open there: nobody knows what would be moved. Lists
+ * of points have no empty cells. */
+static batten_status check_closed(const variation_parent *parent, size_t station)
+{
+	const batten_hull *hull = parent->hull;
+	size_t open = SIZE_MAX;
+	bool begun = false;
+	for (size_t w = 0; w < hull->waterline_count && hull->layout == HULL_LAYOUT_GRID; w++) {
+		const bool outside = hull->nodes[w * hull->station_count + station] == BATTEN_NODE_OUTSIDE;
+		if (outside && begun && open == SIZE_MAX)
+			open = w;
+		if (!outside && open != SIZE_MAX)
+			return batten_fail(parent->context, BATTEN_INPUT,
+			                   "%s: its section at x = %g m is open, without a half-breadth at "
+			                   "z = %g m; a closed one is expected",
+			                   hull->name, hull->x_m[station], hull->z_m[open]);
+		begun = begun || !outside;
+	}
+	return BATTEN_OK;
+}
+
 static batten_status check_sections(const variation_parent *parent)
 {
 	const batten_hull *hull = parent->hull;
@@ -146,6 +167,11 @@ static batten_status check_sections(const variation_parent *parent)
 			                   "%s: its sections have points off the grid, which cannot be moved "
 			                   "along the ship; a table of waterlines is expected",
 			                   hull->name);
+	for (size_t i = 0; i < hull->station_count; i++) {
+		const batten_status status = check_closed(parent, i);
+		if (status != BATTEN_OK)
+			return status;
+	}
 	const double middle = 0.5 * hull->lbp_m;
 	if (!(hull->x_m[0] < middle && hull->x_m[hull->station_count - 1] > middle))
 		return batten_fail(parent->context, BATTEN_INPUT,

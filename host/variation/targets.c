@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #define MEASURE(name) (offsetof(batten_measures, name) / sizeof(double))
 
@@ -81,4 +82,23 @@ size_t variation_targets(const batten_vary_options *options, const batten_measur
 	default:
 		return 0;
 	}
+}
+
+void variation_tell_reach(char *text, size_t size, batten_vary_method method, const char *why,
+                          size_t count, const variation_target *targets, const double *asked,
+                          const batten_measures *parent, double least, double most)
+{
+	char range[256] = "";
+	size_t used = 0;
+	for (size_t i = 0; i < count && used < sizeof range; i++) {
+		const double zero = variation_target_value(&targets[i], parent);
+		const double step = asked[i] / targets[i].scale + targets[i].zero - zero;
+		const double a = zero + least * step, b = zero + most * step;
+		const int length = snprintf(range + used, sizeof range - used, "%s%s %.4g to %.4g",
+		                            i > 0 ? ", " : "", targets[i].name, fmin(a, b), fmax(a, b));
+		used += length > 0 ? (size_t)length : 0;
+	}
+	(void)snprintf(text, size,
+	               "%s: out of reach (%s); in the proportion asked for %s can be reached",
+	               batten_vary_method_name((size_t)method), why, range);
 }

@@ -24,4 +24,10 @@ struct batten_vary_target variation_target_tell(const variation_target *target,
                                                 const batten_measures *parent, double asked,
                                                 double got);
 
+/* The reason of a variant out of reach: why, and of each of count targets what can be reached in the
+ * proportion asked for (parameters, [count]): from least to most times the way from the parent. */
+void variation_tell_reach(char *text, size_t size, batten_vary_method method, const char *why,
+                          size_t count, const variation_target *targets, const double *asked,
+                          const batten_measures *parent, double least, double most);
+
 #endif

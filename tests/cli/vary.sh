@@ -74,8 +74,26 @@ holds 'C_B solved' 'v > 0.52999 && v < 0.53001' v="$(member measures.json cb)"
 # A fraction where percent is meant is a warning, silent with --quiet.
 expect 0 vary "$hull" --method swing --dlcb 0.02 --out small.csv
 says 'is percent what is meant?'
+expect 0 vary "$hull" --method one-minus-prismatic --dcp 31 --out large.csv
+says 'dcp is 31 percent: is percent what is meant?'
 expect 0 vary "$hull" --method swing --dlcb 0.02 --out small.csv --quiet
 [ -s "$talk" ] && fail '--quiet talks'
+
+# Parents that are none: no full section, an open one, one that crosses itself.
+parent()
+{
+	name=$1
+	layout=$2
+	shift 2
+	{
+		printf '# %s\n' 'batten-offsets: 1' "name: $name" 'unit: m' 'frame: ap-fwd' 'lbp: 10' 'draft: 2' \
+			"layout: $layout"
+		printf '%s\n' "$@"
+	} >"$name.csv"
+}
+parent hollow grid 'z\x,0,2.5,5,7.5,10' '0,0,0,0,0,0' '1,0,1,0,1,0' '2,0,1,0,1,0'
+parent open grid 'z\x,0,2.5,5,7.5,10' '0,0,0,0,0,0' '1,0,1,,1,0' '2,0,1,1,1,0'
+parent crossing long 'station,x,z,y' '0,0,0,0' '0,0,1,1' '0,0,0.5,2' '1,10,0,0' '1,10,2,1'
 
 # refuses CODE PATTERN ARGUMENT...: one line that has this in it, and no file.
 before=$(state_of .)
@@ -88,6 +106,11 @@ refuses()
 	one_line
 	says "$pattern"
 }
+refuses 3 'a full section amidships is expected' hollow.csv --method swing --dlcb 1 --out x.csv
+refuses 3 'its section at x = 5 m is open, without a half-breadth at z = 1 m' open.csv --method swing \
+	--dlcb 1 --out x.csv
+refuses 3 "crossing.csv:11:5: found '0.5', expected z in ascending order" crossing.csv --method swing \
+	--dlcb 1 --out x.csv
 refuses 2 'an offsets file was expected' --method swing --out x.csv
 refuses 2 '--method was expected' "$hull" --out x.csv
 refuses 2 "--method: found 'swung'" "$hull" --method swung --out x.csv

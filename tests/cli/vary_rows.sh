@@ -61,8 +61,9 @@ both()
 	grep "^2,failed,.*$reason" one.csv >/dev/null || fail "$method: no reason: $(grep ^2, one.csv)"
 	grep '^2,.*,,,,,,,,,,$' one.csv >/dev/null || fail "$method: a failed row has numbers"
 }
-both swing dlcb 1 60 'out of reach'
-both one-minus-prismatic dcp,dlcb 2,0.5 90, 'out of reach'
+both swing dlcb 1 60 'swing: out of reach (sections would run into each other); in the proportion asked for lcb_pct_lbp_fwd '
+both one-minus-prismatic dcp,dlcb 2,0.5 90, 'out of reach.*can be reached'
+both lackenby dcp 2 50 'out of reach.*cp 0.4188 to 0.7575'
 both lackenby dcp,dp-fore 2,1 2,200 'dp_fore is 200'
 both moor dcb,dcwp 2,1 0,2000 'dcwp is 2000'
 both affine x,y,z 1.2,0.9,1.1 1,-1,1 'scale_y is -1'
@@ -73,6 +74,8 @@ both average weight 0.5 1000 'weight 1 is 1000' --with both.csv
 printf 'lattice\n%s\n' "$DATA/lattices/trawler_shoulder.json" >rows.csv
 expect 0 vary "$hull" --method free-form --rows rows.csv --out lattice.json
 expect_json lattice.json
+sed 's/\[3, 2, 3, 0,/[3, 2, 3, -20,/' "$DATA/lattices/trawler_shoulder.json" >folding.json
+both free-form lattice "$DATA/lattices/trawler_shoulder.json" folding.json 'would fold'
 # Empty cells take what the command line says; a fraction is warned of in its row.
 printf 'dcp,dlcb\n0.03,\n' >rows.csv
 expect 0 vary "$hull" --method lackenby --dlcb 1 --rows rows.csv --out one.csv
@@ -94,7 +97,7 @@ refuses()
 }
 set -- "$hull" --rows rows.csv --out x.csv --hulls never
 refuses 3 "rows.csv:1:1: found '', expected a first row of names" '' "$@" --method swing
-refuses 3 "rows.csv:1:1: found 'dcp', expected a number this method takes" 'dcp\n1\n' "$@" --method swing
+refuses 3 "rows.csv:1:1: found 'dcp', expected a name that swing takes: dlcb$" 'dcp\n1\n' "$@" --method swing
 refuses 3 "rows.csv:1:2: found 'dlcb', expected each name once" 'dlcb,dlcb\n1,1\n' "$@" --method swing
 refuses 3 "rows.csv:1:1: found 'id', expected a column of numbers" 'id\n1\n' "$@" --method swing
 refuses 3 "rows.csv:2:1: found '', expected a row" 'dlcb\n' "$@" --method swing
@@ -102,7 +105,11 @@ refuses 3 "rows.csv:3:1: found '1;5', expected a number" 'dlcb\n1\n1;5\n' "$@" -
 refuses 3 "rows.csv:2:1: found '0x1', expected a number" 'dlcb\n0x1\n' "$@" --method swing
 refuses 3 "rows.csv:2:2: found '5', expected no more cells" 'dlcb\n1,5\n' "$@" --method swing
 refuses 3 "rows.csv:2:2: found '', expected as many cells" 'dcp,dlcb\n1\n' "$@" --method lackenby
-refuses 3 "rows.csv:1:1: found 'weight2'" 'weight2\n1\n' "$@" --method average --with "$hull"
+refuses 3 "rows.csv:1:1: found 'weight2', expected a name that average takes: weight$" 'weight2\n1\n' "$@" --method average --with "$hull"
+refuses 3 "found 'dlcd', expected a name that lackenby takes: dcp, dlcb, dp-fore, dp-aft$" 'dlcd\n1\n' "$@" \
+	--method lackenby
+refuses 3 "found 'lattices', expected a name that free-form takes: lattice$" 'lattices\nx\n' "$@" \
+	--method free-form
 refuses 3 'zero byte' 'dlcb\n1\n\000' "$@" --method swing
 refuses 6 'none.csv' '' "$hull" --method swing --rows none.csv --out x.csv
 refuses 6 'none.json' 'lattice\nnone.json\n' "$@" --method free-form

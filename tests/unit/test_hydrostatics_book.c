@@ -9,7 +9,8 @@ static batten_surface *lopsided(batten_context *context)
 	for (size_t i = 0; i < 9; i++) {
 		poles[3 * i] = x[i % 3];
 		poles[3 * i + 1] = 5 * a[i % 3] * c[i / 3];
-		poles[3 * i + 2] = 3.125 * (double)((i - i % 3) / 3);
+		const size_t row = i / 3;
+		poles[3 * i + 2] = 3.125 * (double)row;
 	}
 	return make_surface(context,
 	                    &(batten_surface_net){ "lopsided", 3, 3, 3, 3, NULL, NULL, poles, NULL });
@@ -197,13 +198,89 @@ static void offsets_in_number(void **state)
 	batten_context_destroy(context);
 }
 
+static batten_polygon_integrals polygon(batten_context *context, size_t loops, const size_t *counts,
+                                        const double *points)
+{
+	batten_polygon_integrals found;
+	if (batten_polygon_integrate(context, loops, counts, points, &found) != BATTEN_OK)
+		fail_msg("%s", batten_context_error(context));
+	return found;
+}
+
+static void assert_rectangle(const batten_polygon_integrals *found, double sign, double a, double b,
+                             double w, double h)
+{
+	const double area = sign * w * h, x = a + w / 2, y = b + h / 2;
+	assert_relative(found->area_m2, area, 1e-15);
+	assert_relative(found->moment_x_m3, area * x, 4e-15);
+	assert_relative(found->moment_y_m3, area * y, 4e-15);
+	assert_relative(found->i_xx_m4, area * (h * h / 12 + y * y), 4e-15);
+	assert_relative(found->i_yy_m4, area * (w * w / 12 + x * x), 4e-15);
+	assert_relative(found->i_xy_m4, area * x * y, 4e-15);
+}
+
+/* A rectangle off the axes, the other way round, with a hole (Letcher 9.4). */
+static void polygons(void **state)
+{
+	(void)state;
+	batten_context *context = make_context();
+	const double a = 1.5, b = 0.75, w = 4, h = 2.5;
+	const double points[16] = { a,     b,       a + w, b,       a + w, b + h,   a,     b + h,
+		                        a + 1, b + 0.5, a + 1, b + 1.5, a + 3, b + 1.5, a + 3, b + 0.5 };
+	const double turned[8] = { a, b + h, a + w, b + h, a + w, b, a, b };
+	const size_t counts[2] = { 4, 4 }, few = 2;
+	batten_polygon_integrals found = polygon(context, 1, counts, points);
+	assert_rectangle(&found, 1, a, b, w, h);
+	found = polygon(context, 1, counts, turned);
+	assert_rectangle(&found, -1, a, b, w, h);
+	const batten_polygon_integrals hole = polygon(context, 1, counts, points + 8);
+	assert_rectangle(&hole, -1, a + 1, b + 0.5, 2, 1);
+	const batten_polygon_integrals whole = polygon(context, 1, counts, points);
+	found = polygon(context, 2, counts, points);
+	const double *part = (const double *)&found, *one = (const double *)&whole;
+	const double *less = (const double *)&hole;
+	for (size_t k = 0; k < sizeof found / sizeof *part; k++)
+		assert_relative(part[k], one[k] + less[k], 1e-14);
+	assert_int_equal(batten_polygon_integrate(context, 1, &few, points, &found), BATTEN_USAGE);
+	const double bad[6] = { 0, 0, 1, 0, NAN, 1 };
+	const size_t three = 3;
+	assert_int_equal(batten_polygon_integrate(context, 1, &three, bad, &found), BATTEN_USAGE);
+	assert_string_equal(batten_context_error(context),
+	                    "loop 0: x of point 2 is nan, expected a number within 1e+06 m");
+	batten_context_destroy(context);
+}
+
+/* A curve of ordinates 1 that steps to 2 at midlength: trapezoids with both ordinates there are exact,
+ * the rule with the upper one alone is 1 / (3 N) off (9.2.1). */
+static void double_abscissa(void **state)
+{
+	(void)state;
+	enum { N = 10 };
+	batten_context *context = make_context();
+	double points[2 * (N + 4)] = { 0 }, single = 0;
+	size_t count = 0;
+	for (int i = N; i >= 0; i--)
+		for (int side = 2 * i == N ? 0 : 1; side < 2; side++, count++) {
+			points[2 * count] = (double)i / N;
+			points[2 * count + 1] = 2 * i > N || (2 * i == N && side == 0) ? 2 : 1;
+		}
+	points[2 * count++] = 0;
+	points[2 * count++] = 1;
+	const batten_polygon_integrals found = polygon(context, 1, &count, points);
+	assert_relative(found.area_m2, 1.5, 1e-15);
+	assert_relative(found.moment_x_m3, 0.125 + 0.75, 1e-15);
+	for (int i = 0; i < N; i++)
+		single += ((2 * i >= N ? 2.0 : 1.0) + (2 * i + 2 >= N ? 2.0 : 1.0)) / (2 * N);
+	assert_relative(single / found.area_m2, 1 + 1.0 / (3 * N), 1e-14);
+	batten_context_destroy(context);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(two_ways),
-		cmocka_unit_test(area_by_obliquity),
-		cmocka_unit_test(pressure_carries),
-		cmocka_unit_test(offsets_in_number),
+		cmocka_unit_test(polygons),         cmocka_unit_test(double_abscissa),
+		cmocka_unit_test(two_ways),         cmocka_unit_test(area_by_obliquity),
+		cmocka_unit_test(pressure_carries), cmocka_unit_test(offsets_in_number),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

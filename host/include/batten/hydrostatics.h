@@ -165,6 +165,21 @@ BATTEN_API batten_status batten_mesh_section_areas(batten_context *context, cons
                                                    size_t height_count, const double *heights_m,
                                                    double *areas_m2);
 
+/* Integrals over a plane area: a section, a waterplane, what lies under a curve; x and y in metres. */
+typedef struct batten_polygon_integrals {
+	double area_m2;
+	double moment_x_m3, moment_y_m3;  /* of x dA, of y dA: over the area, the centre */
+	double i_xx_m4, i_xy_m4, i_yy_m4; /* of y^2 dA, of x y dA, of x^2 dA, about the axes */
+} batten_polygon_integrals;
+
+/* Of the area within loops of straight lines, exact (Letcher 9.4): loop k has counts[k] >= 3 points, x and y
+ * each, one loop after the other in points_m; the last point is joined to the first. Counter-clockwise
+ * loops count positive, holes run the other way. An ordinate may stand twice at one place, with the values
+ * on both sides of a step (9.2.1). Errors: USAGE (fewer points, a number beyond 1e6 m). */
+BATTEN_API batten_status batten_polygon_integrate(batten_context *context, size_t loop_count,
+                                                  const size_t *counts, const double *points_m,
+                                                  batten_polygon_integrals *out);
+
 /* Something about a hull worth a second look: a quantity outside the range of usual ships (Letcher
  * 10-11), or a surface or mesh that is not closed. Never an error. */
 typedef struct batten_warning {
