@@ -21,6 +21,56 @@ static batten_mesh *mesh_of(batten_context *context, size_t vertex_count, const 
 static const uint32_t pyramid_faces[12] = { 0, 1, 2, 1, 4, 2, 4, 3, 2, 3, 0, 2 };
 
 /* Letcher's mesh (figure 24): five vertices, four triangles, open below. */
+/* Each triangle cut into four at the middles of its sides, vertices and triangles in place. */
+static void split(size_t *vertex_count, double *vertices, size_t *face_count, uint32_t *faces)
+{
+	const size_t before = *face_count;
+	for (size_t t = 0; t < before; t++) {
+		uint32_t *f = faces + 3 * t, corner[3] = { f[0], f[1], f[2] }, middle[3];
+		for (size_t k = 0; k < 3; k++) {
+			double at[3];
+			for (size_t c = 0; c < 3; c++)
+				at[c] = 0.5 * (vertices[3 * (size_t)corner[k] + c] +
+				               vertices[3 * (size_t)corner[(k + 1) % 3] + c]);
+			size_t i = 0;
+			while (i < *vertex_count && memcmp(vertices + 3 * i, at, sizeof at) != 0)
+				i++;
+			if (i == *vertex_count)
+				memcpy(vertices + 3 * (*vertex_count)++, at, sizeof at);
+			middle[k] = (uint32_t)i;
+		}
+		for (size_t k = 0; k < 3; k++) {
+			const uint32_t cut[3] = { corner[k], middle[k], middle[(k + 2) % 3] };
+			memcpy(faces + 3 * (*face_count)++, cut, sizeof cut);
+		}
+		memcpy(f, middle, sizeof middle);
+	}
+}
+
+/* Its vertices, edges and faces as it is split: one more vertex and face than edges (7.1). */
+static void pyramid_split(void **state)
+{
+	(void)state;
+	static const size_t counts[3][3] = { { 5, 8, 4 }, { 13, 28, 16 }, { 41, 104, 64 } };
+	double vertices[3 * 41] = { -1, -1, 0, 1, -1, 0, 0, 0, 2, -1, 1, 0, 1, 1, 0 };
+	uint32_t faces[3 * 64];
+	size_t vertex_count = 5, face_count = 4;
+	batten_context *context = make_context();
+	memcpy(faces, pyramid_faces, 12 * sizeof *faces);
+	for (size_t k = 0; k < 3; k++) {
+		if (k > 0)
+			split(&vertex_count, vertices, &face_count, faces);
+		batten_mesh *mesh = mesh_of(context, vertex_count, vertices, face_count, faces, false);
+		const batten_mesh_facts facts = batten_mesh_describe(mesh);
+		assert_int_equal(facts.vertex_count, counts[k][0]);
+		assert_int_equal(facts.edge_count, counts[k][1]);
+		assert_int_equal(facts.triangle_count, counts[k][2]);
+		assert_relative(facts.area_m2, 4 * sqrt(5), 1e-14);
+		batten_mesh_destroy(mesh);
+	}
+	batten_context_destroy(context);
+}
+
 static void pyramid_of_the_book(void **state)
 {
 	(void)state;
@@ -275,9 +325,10 @@ static void through_stl(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(through_stl), cmocka_unit_test(pyramid_of_the_book),
-		cmocka_unit_test(barge),       cmocka_unit_test(wigley_errors),
-		cmocka_unit_test(bad_meshes),  cmocka_unit_test(holes_and_drafts),
+		cmocka_unit_test(through_stl),      cmocka_unit_test(pyramid_of_the_book),
+		cmocka_unit_test(pyramid_split),    cmocka_unit_test(barge),
+		cmocka_unit_test(wigley_errors),    cmocka_unit_test(bad_meshes),
+		cmocka_unit_test(holes_and_drafts),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
