@@ -21,7 +21,7 @@ struct grid_lines {
 	double *memory;
 };
 
-enum { LANE_ARRAYS = 3, POINT_ARRAYS = 7 };
+enum { LANE_ARRAYS = 3, POINT_ARRAYS = 7, NUMBERS_MOST = 1 << 18 };
 
 /* ---- pieces ---- */
 
@@ -112,11 +112,14 @@ static void lay_pieces(const struct walk *walk, grid_lines *t)
 		lay_lane(t, lane);
 }
 
-/* Lanes are as long as the longest piece: of many short pieces and a long one most would stay empty. */
+/* Lanes are as long as the longest piece: of many short pieces and a long one most would stay empty. Tables
+ * of very many nodes are those of single hulls, whose lines need no such memory one by one. */
 static bool fits(const grid_lines *table, const batten_hull *hull)
 {
-	return table->lane_count * table->point_count <=
-	       4 * (hull_node_count(hull) + RUN_LENGTH * (hull->station_count + hull->waterline_count));
+	const size_t room = table->lane_count * table->point_count;
+	return room <= NUMBERS_MOST &&
+	       room <= 4 * (hull_node_count(hull) +
+	                    RUN_LENGTH * (hull->station_count + hull->waterline_count));
 }
 
 static batten_status take_memory(grid_lines *t)

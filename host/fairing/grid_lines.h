@@ -7,8 +7,9 @@
 
 typedef struct grid_lines grid_lines;
 
-/* Of a hull whose lines are of its grid; waterlines, else sections. *out NULL where empty cells break lines
- * into many more pieces than pay: those are worked line by line. Errors: MEMORY. */
+/* Of a hull whose lines are of its grid; waterlines, else sections. *out NULL where it would not pay, for
+ * very large tables and where empty cells break lines into many pieces: those are worked line by line.
+ * Errors: MEMORY. */
 batten_status grid_lines_create(batten_context *context, const batten_hull *hull, bool waterlines,
                                 grid_lines **out);
 void grid_lines_destroy(grid_lines *table);

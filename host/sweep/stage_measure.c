@@ -93,19 +93,21 @@ static batten_status measure_batched(measure_room *room, const struct measuring 
 	return measures_complete(room, hull, &forms[drafts], out);
 }
 
-static batten_status measure_alone(batten_context *context, const struct measuring *measuring,
-                                   const batten_hull *hull, size_t i, batten_measures *out)
+static batten_status measure_alone(batten_context *context, measure_room *room,
+                                   const struct measuring *measuring, const batten_hull *hull,
+                                   size_t i, batten_measures *out)
 {
 	const sweep_plan *plan = measuring->block->plan;
-	batten_measure_options options;
-	batten_measure_options_default(&options);
-	options.quadrature = plan->hydrostatics.quadrature;
-	options.density_t_per_m3 = plan->hydrostatics.density_t_per_m3;
-	batten_status status = batten_hull_measure(context, hull, &options, out);
-	if (status == BATTEN_OK && plan->draft_count > 0)
-		status = batten_hull_hydrostatics(context, hull, &plan->hydrostatics, plan->draft_count,
-		                                  plan->drafts_m, drafts_of(measuring->block, i));
-	return status;
+	double drafts[PLAN_DRAFTS_MOST + 1];
+	batten_hydrostatics forms[PLAN_DRAFTS_MOST + 1];
+	memcpy(drafts, plan->drafts_m, plan->draft_count * sizeof *drafts);
+	drafts[plan->draft_count] = hull->draft_m;
+	const batten_status status = batten_hull_hydrostatics(context, hull, &plan->hydrostatics,
+	                                                      plan->draft_count + 1, drafts, forms);
+	if (status != BATTEN_OK)
+		return status;
+	memcpy(drafts_of(measuring->block, i), forms, plan->draft_count * sizeof *forms);
+	return measures_complete(room, hull, &forms[plan->draft_count], out);
 }
 
 static batten_status measure(batten_context *context, measure_room *room,
@@ -117,7 +119,7 @@ static batten_status measure(batten_context *context, measure_room *room,
 	const batten_hull hull = sweep_block_final(block, context, i);
 	batten_measures measures;
 	batten_status status = measuring->place[i] == SIZE_MAX
-	                           ? measure_alone(context, measuring, &hull, i, &measures)
+	                           ? measure_alone(context, room, measuring, &hull, i, &measures)
 	                           : measure_batched(room, measuring, &hull, i, &measures);
 	if (status == BATTEN_OK) {
 		memcpy(design->measures, &measures, sizeof measures);
