@@ -185,7 +185,7 @@ static bool good_ending(const char *path)
 /* Of several files only the table over drafts is made. */
 static batten_status check_many(const measure_job *job)
 {
-	for (size_t i = 0; i < job->path_count; i++)
+	for (size_t i = job->path_count; i-- > 0;)
 		if (!measure_ends_in(job->paths[i], ".json"))
 			return cli_usage("measure",
 			                 "found %zu files, '%s' among them: several are to be surfaces, "
