@@ -30,6 +30,7 @@ struct mesh_line {
 bool mesh_next_line(struct mesh_line *line);
 /* The next word between blanks, not NUL-terminated; length 0 behind the last. */
 const char *mesh_next_word(struct mesh_line *line, size_t *length);
+/* In small letters or capitals. */
 bool mesh_word_is(const char *word, size_t length, const char *text);
 /* INPUT: "file:line: found 'word', expected ...". */
 batten_status mesh_fail(const struct mesh_line *line, const char *word, size_t length,

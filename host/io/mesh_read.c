@@ -92,9 +92,19 @@ const char *mesh_next_word(struct mesh_line *line, size_t *length)
 	return word;
 }
 
+static char small_letter(char c)
+{
+	return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
 bool mesh_word_is(const char *word, size_t length, const char *text)
 {
-	return length == strlen(text) && memcmp(word, text, length) == 0;
+	if (length != strlen(text))
+		return false;
+	for (size_t i = 0; i < length; i++)
+		if (small_letter(word[i]) != text[i])
+			return false;
+	return true;
 }
 
 batten_status mesh_fail(const struct mesh_line *line, const char *word, size_t length,
@@ -126,14 +136,7 @@ batten_status mesh_read_point(struct mesh_line *line, double at[3])
 static bool ends_in(const char *path, const char *ending)
 {
 	const size_t length = strlen(path), tail = strlen(ending);
-	if (length <= tail)
-		return false;
-	for (size_t i = 0; i < tail; i++) {
-		const char c = path[length - tail + i];
-		if ((c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c) != ending[i])
-			return false;
-	}
-	return true;
+	return length > tail && mesh_word_is(path + length - tail, tail, ending);
 }
 
 /* Half a hull is what has nothing to starboard. */

@@ -116,7 +116,7 @@ batten_status mesh_read_stl(struct mesh_parts *parts, const char *text, size_t l
 		    (length - HEADER_SIZE) / RECORD_SIZE == count)
 			return read_binary(parts, text, count);
 	}
-	if (length >= 5 && memcmp(text, "solid", 5) == 0)
+	if (length >= 5 && mesh_word_is(text, 5, "solid"))
 		return read_lines(parts, text, length);
 	return batten_fail(
 		parts->context, BATTEN_INPUT,

@@ -4,6 +4,8 @@
  *   #define FUZZ_PROGRAM "fuzz_points"
  *   #include "fuzz.h"
  *
+ * FUZZ_OWN_MESSAGES says that its inputs are no tables, whose messages name line and column.
+ *
  *   clang -fsanitize=fuzzer,address,undefined ...            libFuzzer
  *   fuzz_points FILE ...   (with BATTEN_FUZZ_STANDALONE)  the files, and changed copies of them */
 #ifndef BATTEN_TESTS_FUZZ_FUZZ_H
@@ -19,9 +21,6 @@
 
 enum { FUZZ_PATH = 256 };
 
-/* The name under which the bytes are parsed, and which messages must begin with. */
-static const char input_name[] = "input.csv";
-
 /* The includer's: one input, in a context of its own; aborts by require() at what is wrong. */
 static void fuzz_one(batten_context *context, const uint8_t *data, size_t size);
 
@@ -35,6 +34,17 @@ static void require(bool condition, const char *what, const char *detail)
 	abort();
 }
 
+static void check_line(batten_status status, const char *message)
+{
+	require(status == BATTEN_INPUT || status == BATTEN_MEMORY, "status of a refusal", message);
+	require(strchr(message, '\n') == NULL, "message of one line", message);
+}
+
+#ifndef FUZZ_OWN_MESSAGES
+
+/* The name under which the bytes are parsed, and which messages must begin with. */
+static const char input_name[] = "input.csv";
+
 /* Whether text goes on with ":NUMBER"; moves it past that. */
 static bool skip_number(const char **text)
 {
@@ -46,8 +56,7 @@ static bool skip_number(const char **text)
 
 static void check_message(batten_status status, const char *message)
 {
-	require(status == BATTEN_INPUT || status == BATTEN_MEMORY, "status of a refusal", message);
-	require(strchr(message, '\n') == NULL, "message of one line", message);
+	check_line(status, message);
 	if (status == BATTEN_MEMORY)
 		return;
 	size_t name = strlen(input_name);
@@ -64,6 +73,8 @@ static void temporary_path(char path[FUZZ_PATH])
 	(void)snprintf(path, FUZZ_PATH, "%s/" FUZZ_PROGRAM ".%ld.csv", folder ? folder : "/tmp",
 	               (long)getpid());
 }
+
+#endif
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
