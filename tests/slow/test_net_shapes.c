@@ -70,9 +70,7 @@ static void test_lanes(void **state)
 	(void)state;
 	net_case c = net_case_npl(0.1);
 	check(&c, (net_shape){ BATTEN_F64, 1, 1, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F64, 2, 1, BATTEN_FAIRNESS_BENDING });
 	check(&c, (net_shape){ BATTEN_F64, 8, 1, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F32, 4, 1, BATTEN_FAIRNESS_BENDING });
 	check(&c, (net_shape){ BATTEN_F32, 16, 1, BATTEN_FAIRNESS_BENDING });
 	net_case_close(&c);
 }
