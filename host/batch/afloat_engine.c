@@ -39,8 +39,7 @@ batten_status afloat_engine_open(const afloat_plan *plan, size_t index, const ba
 		recipe.work_group = GPU_ITEMS;
 	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s",
-	               room_is_global(plan, &recipe, device) ? "-DSTATE=global -DSTATE_IS_GLOBAL"
-	                                                     : "-DSTATE=local");
+	               batch_engine_state_option(room_is_global(plan, &recipe, device)));
 	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
@@ -90,11 +89,7 @@ static batten_status block_allocate(const batch_engine *engine, const afloat_pla
 static batten_status block_upload(const batch_engine *engine, const afloat_plan *plan, block *b)
 {
 	const bool global = room_is_global(plan, &engine->recipe, batch_engine_device(engine));
-	const struct {
-		device_buffer **buffer;
-		size_t size;
-		const void *from;
-	} uploads[] = {
+	const batch_engine_upload uploads[] = {
 		{ &b->shape_on, sizeof plan->shape, plan->shape },
 		{ &b->lists_on, plan->list_count * sizeof *plan->lists, plan->lists },
 		{ &b->tables_on, plan->table_count * sizeof *plan->tables, plan->tables },
@@ -102,12 +97,7 @@ static batten_status block_upload(const batch_engine *engine, const afloat_plan 
 		{ &b->out_on, b->groups * b->out_size * sizeof(double), NULL },
 		{ &b->room_on, global ? room_bytes(plan, &engine->recipe) * b->groups : 0, NULL },
 	};
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
-			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
-			                              uploads[i].buffer);
-	return status;
+	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
 }
 
 static batten_status block_launch(const batch_engine *engine, const afloat_plan *plan, block *b)

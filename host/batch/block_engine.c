@@ -51,8 +51,7 @@ batten_status block_engine_open(const search_plan *plan, size_t index, const bat
 	const bool global = numbers * recipe.lanes * batch_engine_number_size(recipe.precision) >
 	                    device->local_memory_bytes;
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
-	               global ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local",
-	               plan->options.analytic_slopes);
+	               batch_engine_state_option(global), plan->options.analytic_slopes);
 	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
@@ -140,11 +139,7 @@ static batten_status block_upload(batch_engine *engine, block *b)
 {
 	const size_t state = state_numbers(b->plan, engine->recipe.work_group, b->hats) *
 	                     engine->recipe.lanes * b->number * b->groups;
-	const struct {
-		device_buffer **buffer;
-		size_t size;
-		const void *from;
-	} uploads[] = {
+	const batch_engine_upload uploads[] = {
 		{ &b->stencils_on, block_stencil_count(b->plan) * b->number, b->stencils },
 		{ &b->inputs_on, b->direct ? 0 : b->count * b->input_bytes, b->inputs },
 		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
@@ -152,11 +147,8 @@ static batten_status block_upload(batch_engine *engine, block *b)
 		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
 		{ &b->state_on, is_global(engine) ? state : 0, NULL },
 	};
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
-			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
-			                              uploads[i].buffer);
+	batten_status status = batch_engine_upload_all(engine, uploads,
+	                                               sizeof uploads / sizeof uploads[0]);
 	if (status == BATTEN_OK && b->direct)
 		status = device_buffer_wrap(engine->session, b->count * b->input_bytes, b->inputs,
 		                            &b->inputs_on);

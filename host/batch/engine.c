@@ -162,6 +162,22 @@ void *batch_engine_memory(batch_engine *e, size_t count, size_t size)
 	return e->memory;
 }
 
+batten_status batch_engine_upload_all(const batch_engine *e, const batch_engine_upload *uploads,
+                                      size_t count)
+{
+	batten_status status = BATTEN_OK;
+	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
+		if (uploads[i].size > 0)
+			status = device_buffer_create(e->session, uploads[i].size, uploads[i].from,
+			                              uploads[i].buffer);
+	return status;
+}
+
+const char *batch_engine_state_option(bool global)
+{
+	return global ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local";
+}
+
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most)
 {
 	const uint64_t device = batch_engine_device(e)->max_allocation_bytes;

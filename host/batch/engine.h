@@ -74,6 +74,21 @@ batten_status batch_engine_open(batten_context *context, const batch_engine_reci
  * there already cost nothing. What is in it is not known. NULL: out of memory. */
 void *batch_engine_memory(batch_engine *e, size_t count, size_t size);
 
+/* A buffer of a launch: what it begins with, NULL for what the kernel writes first. */
+typedef struct batch_engine_upload {
+	device_buffer **buffer;
+	size_t size; /* bytes; 0: no such buffer */
+	const void *from;
+} batch_engine_upload;
+
+/* Makes the buffers of a launch, which are the caller's, those made before a failure too. Errors: as
+ * device_buffer_create(). */
+batten_status batch_engine_upload_all(const batch_engine *e, const batch_engine_upload *uploads,
+                                      size_t count);
+
+/* The compiler's option that says where a kernel's state lies: in global memory, or in local. */
+const char *batch_engine_state_option(bool global);
+
 /* Most bytes of one launch: most, or what the device or the context allots at a time. */
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most);
 

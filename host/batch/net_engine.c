@@ -42,8 +42,7 @@ batten_status net_engine_open(const net_plan *plan, size_t index, const batten_d
 	(void)snprintf(recipe.options, sizeof recipe.options,
 	               "-DNET_FAIRNESS=%d -DNET_ORDER_U=%zu -DNET_ORDER_V=%zu %s", plan->fairness,
 	               plan->u.order, plan->v.order,
-	               state_is_global(plan, &recipe, device) ? "-DSTATE=global -DSTATE_IS_GLOBAL"
-	                                                      : "-DSTATE=local");
+	               batch_engine_state_option(state_is_global(plan, &recipe, device)));
 	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
 }
 
@@ -131,11 +130,7 @@ static batten_status block_upload(const batch_engine *engine, const net_plan *pl
 	const bool global = state_is_global(plan, &engine->recipe, batch_engine_device(engine));
 	const size_t state = NET_STATE_COUNT * net_plan_poles(plan) * b->lanes * b->number * b->groups;
 	/* An OpenCL buffer cannot be empty: lists that may be have room for one more. */
-	const struct {
-		device_buffer **buffer;
-		size_t size;
-		const void *from;
-	} uploads[] = {
+	const batch_engine_upload uploads[] = {
 		{ &b->shape_on, sizeof b->shape, b->shape },
 		{ &b->first_u_on, plan->u.count * sizeof *plan->u.first, plan->u.first },
 		{ &b->first_v_on, plan->v.count * sizeof *plan->v.first, plan->v.first },
@@ -151,12 +146,7 @@ static batten_status block_upload(const batch_engine *engine, const net_plan *pl
 		{ &b->outcome_on, b->groups * b->outcome_size, NULL },
 		{ &b->state_on, global ? state : 0, NULL },
 	};
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
-			status = device_buffer_create(engine->session, uploads[i].size, uploads[i].from,
-			                              uploads[i].buffer);
-	return status;
+	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
 }
 
 static batten_status block_launch(const batch_engine *engine, const net_plan *plan, block *b)

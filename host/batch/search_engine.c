@@ -58,8 +58,7 @@ batten_status search_engine_open(batten_context *context, const search_shape *sh
 		                           .lanes = shape->lanes,
 		                           .work_group = shape->work_group };
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DGRID_FAIRNESS=%d",
-	               shape->global_state ? "-DSTATE=global -DSTATE_IS_GLOBAL" : "-DSTATE=local",
-	               shape->fairness);
+	               batch_engine_state_option(shape->global_state), shape->fairness);
 	search_engine *made = (search_engine *)batch_engine_find(context, &recipe);
 	batten_status status = BATTEN_OK;
 	if (!made) {
@@ -140,11 +139,7 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 	const size_t state = engine->shape.global_state
 	                         ? 3 * plan->node_count * b->lanes * number * b->groups
 	                         : 0;
-	const struct {
-		device_buffer **buffer;
-		size_t size;
-		const void *from;
-	} uploads[] = {
+	const batch_engine_upload uploads[] = {
 		{ &b->levels_on, (size_t)plan->level_count * sizeof plan->levels[0], plan->levels },
 		{ &b->centres_on, centres, plan->centres },
 		{ &b->stencils_on, search_stencil_count(plan) * number, b->stencils },
@@ -153,12 +148,7 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 		{ &b->outcome_on, b->groups * b->outcome_size, NULL },
 		{ &b->state_on, state, NULL },
 	};
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
-			status = device_buffer_create(engine->base.session, uploads[i].size, uploads[i].from,
-			                              uploads[i].buffer);
-	return status;
+	return batch_engine_upload_all(&engine->base, uploads, sizeof uploads / sizeof uploads[0]);
 }
 
 static batten_status block_launch(search_engine *engine, const search_plan *plan, block *b)

@@ -143,11 +143,7 @@ static batten_status block_upload(block *b)
 {
 	const surface_plan *plan = b->plan;
 	const size_t lines = b->launch_groups * b->launch_lines;
-	const struct {
-		device_buffer **buffer;
-		size_t size;
-		const void *from;
-	} uploads[] = {
+	const batch_engine_upload uploads[] = {
 		{ &b->first_u_on, plan->u.count * sizeof *plan->u.first, plan->u.first },
 		{ &b->first_v_on, plan->v.count * sizeof *plan->v.first, plan->v.first },
 		{ &b->table_u_on, surface_pack_table_size(plan, &plan->u), b->table_u },
@@ -158,11 +154,8 @@ static batten_status block_upload(block *b)
 		{ &b->missing_on, b->sums || b->direct ? 0 : lines * b->missing_bytes, NULL },
 		{ &b->values_on, b->values ? lines * b->lanes * b->surface_bytes : 0, NULL },
 	};
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0)
-			status = device_buffer_create(b->engine->session, uploads[i].size, uploads[i].from,
-			                              uploads[i].buffer);
+	batten_status status = batch_engine_upload_all(b->engine, uploads,
+	                                               sizeof uploads / sizeof uploads[0]);
 	if (status == BATTEN_OK && b->direct)
 		status = device_buffer_wrap(b->engine->session, lines * b->missing_bytes, b->missing,
 		                            &b->missing_on);
