@@ -3,11 +3,12 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 bool measure_ends_in(const char *path, const char *ending)
 {
 	const size_t length = strlen(path), tail = strlen(ending);
-	return length > tail && strcmp(path + length - tail, ending) == 0;
+	return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
 static batten_status read_hull(measure_job *job, batten_context *context)

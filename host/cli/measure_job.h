@@ -28,7 +28,7 @@ typedef struct measure_job {
 	int device;
 } measure_job;
 
-/* Whether a path has that ending, with a name before it. */
+/* Whether a path has that ending, in small letters or capitals, with a name before it. */
 bool measure_ends_in(const char *path, const char *ending);
 
 /* Reads the hull, the surface or the mesh, and finds the drafts. Messages are printed. */

@@ -131,6 +131,10 @@ near 'its waterplane' "$(member ../pyramid.json i_t_m4)" 1.3333333333333333 1e-1
 } >pyramid.stl
 expect 0 measure pyramid.stl --draft 2 --quiet --json
 sed 's/pyramid.stl/pyramid.obj/' "$out" | cmp - ../pyramid.json || fail 'STL and OBJ differ'
+# Endings and words in capitals, as some programs write them.
+tr 'a-z' 'A-Z' <pyramid.stl >PYRAMID.STL
+expect 0 measure PYRAMID.STL --draft 2 --quiet --json
+sed 's/PYRAMID.STL/pyramid.obj/' "$out" | cmp - ../pyramid.json || fail 'STL in capitals differs'
 expect 0 measure pyramid.obj --draft 1,2 --out form.csv --quiet
 expect 0 measure pyramid.obj --curves-of-form 3 --out form.svg
 expect 0 measure pyramid.obj --draft 2 --bonjean 3 --out bonjean.json
