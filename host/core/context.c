@@ -113,13 +113,24 @@ batten_status batten_context_create(const batten_context_options *options, batte
 
 void batten_context_destroy(batten_context *context)
 {
-	if (!context)
-		return;
-	batch_engines_destroy(context, context->engines);
-	device_system_destroy(context, context->devices);
-	batten_release(context, context->cache_directory);
-	(void)pthread_mutex_destroy(&context->error_lock);
-	context->options.release(context, context->options.allocate_user);
+	while (context) {
+		batten_context *mate = context->mate;
+		batch_engines_destroy(context, context->engines);
+		device_system_destroy(context, context->devices);
+		batten_release(context, context->cache_directory);
+		(void)pthread_mutex_destroy(&context->error_lock);
+		context->options.release(context, context->options.allocate_user);
+		context = mate;
+	}
+}
+
+batten_context *batten_context_mate(batten_context *context)
+{
+	batten_context_options options = context->options;
+	options.log = NULL;
+	if (!context->mate && batten_context_create(&options, &context->mate) != BATTEN_OK)
+		(void)batten_fail_memory(context);
+	return context->mate;
 }
 
 const char *batten_context_error(const batten_context *context)

@@ -17,7 +17,13 @@ struct batten_context {
 	char error[1024];
 	struct device_system *devices; /* OpenCL, opened at first use; owned by host/device */
 	struct batch_engine *engines;  /* kernels built so far; owned by host/batch */
+	struct batten_context *mate;   /* see below; NULL before it is asked for */
 };
+
+/* A context with the same options, for another thread that computes meanwhile. It has its own error, devices
+ * and kernels, which are made and tested once: it stays until the context ends. It does not log. Its mate is
+ * one for a third thread. NULL: MEMORY. */
+batten_context *batten_context_mate(batten_context *context);
 
 /* Memory of the context, zeroed. NULL when count * size overflows, exceeds max_memory or memory is
  * out; the error is then set. count or size 0 gives a valid pointer. */

@@ -1,18 +1,6 @@
 /* What runs the stages. */
 #include "sweep/stages.h"
 
-void sweep_machine_lock(const sweep_machine *machine)
-{
-	if (machine->device_lock)
-		(void)pthread_mutex_lock(machine->device_lock);
-}
-
-void sweep_machine_unlock(const sweep_machine *machine)
-{
-	if (machine->device_lock)
-		(void)pthread_mutex_unlock(machine->device_lock);
-}
-
 int sweep_machine_device_f64(const sweep_machine *machine)
 {
 	batten_device device;

@@ -47,6 +47,9 @@ static void work_on(sweep_pipeline *pipeline, sweep_machine *machine, pipeline_p
 	part->state = PART_IN_WORK;
 	(void)pthread_mutex_unlock(&pipeline->lock);
 	part->status = compute(machine, &part->block, &spent);
+	if (part->status != BATTEN_OK)
+		(void)batten_fail(pipeline->plan->context, part->status, "%s",
+		                  batten_context_error(machine->context));
 	(void)pthread_mutex_lock(&pipeline->lock);
 	part->state = PART_DONE;
 	pipeline->seconds.vary += spent.vary;
@@ -125,16 +128,23 @@ void sweep_pipeline_drop(sweep_pipeline *pipeline)
 
 /* ---- before and after ---- */
 
+/* Workers share the threads; the first devices of a process are those of all its threads. */
 static batten_status create_workers(sweep_pipeline *pipeline, int device)
 {
 	batten_context *context = pipeline->plan->context;
+	const unsigned threads = context->options.threads;
+	const unsigned workers = (unsigned)pipeline->worker_count;
 	batten_status status = BATTEN_OK;
-	for (size_t w = 0; w < pipeline->worker_count && status == BATTEN_OK; w++) {
+	if (device != BATTEN_DEVICE_REFERENCE)
+		(void)batten_device_count(context, NULL);
+	for (unsigned w = 0; w < workers && status == BATTEN_OK; w++) {
 		pipeline_worker *worker = &pipeline->workers[w];
+		context = batten_context_mate(context);
+		if (!context)
+			return BATTEN_MEMORY;
+		context->options.threads = threads / workers + (w < threads % workers);
 		*worker = (pipeline_worker){ .pipeline = pipeline,
-			                         .machine = { .context = context,
-			                                      .device = device,
-			                                      .device_lock = &pipeline->device_lock } };
+			                         .machine = { .context = context, .device = device } };
 		status = sweep_crew_create(context, &worker->machine.crew);
 	}
 	for (size_t w = 0; w < pipeline->worker_count && status == BATTEN_OK; w++) {
@@ -144,20 +154,18 @@ static batten_status create_workers(sweep_pipeline *pipeline, int device)
 	return status;
 }
 
-batten_status sweep_pipeline_create(const sweep_plan *plan, int device, size_t designs,
-                                    bool in_turns, sweep_pipeline *pipeline)
+batten_status sweep_pipeline_create(const sweep_plan *plan, int device, const pipeline_shape *shape,
+                                    sweep_pipeline *pipeline)
 {
 	*pipeline = (sweep_pipeline){ .plan = plan };
 	if (pthread_mutex_init(&pipeline->lock, NULL) != 0 ||
-	    pthread_mutex_init(&pipeline->device_lock, NULL) != 0 ||
 	    pthread_cond_init(&pipeline->changed, NULL) != 0)
 		return batten_fail_memory(plan->context);
-	const size_t parts = designs < PIPELINE_PARTS_MOST ? designs : PIPELINE_PARTS_MOST;
-	const size_t part = designs / parts;
-	pipeline->part_count = in_turns ? 1 : parts;
-	pipeline->worker_count = pipeline->part_count > 1 && plan->context->options.threads > 1
-	                             ? PIPELINE_WORKERS
-	                             : 1;
+	const size_t parts = shape->designs < shape->workers + 2 ? shape->designs : shape->workers + 2;
+	const size_t part = shape->designs / parts;
+	pipeline->part_count = shape->in_turns ? 1 : parts;
+	pipeline->worker_count = pipeline->part_count < shape->workers ? pipeline->part_count
+	                                                               : shape->workers;
 	batten_status status = BATTEN_OK;
 	for (size_t p = 0; p < pipeline->part_count && status == BATTEN_OK; p++)
 		status = sweep_block_create(plan, part, &pipeline->parts[p].block);
@@ -186,6 +194,5 @@ void sweep_pipeline_destroy(sweep_pipeline *pipeline)
 		sweep_machine_destroy(&pipeline->workers[w].machine);
 	(void)pthread_cond_destroy(&pipeline->changed);
 	(void)pthread_mutex_destroy(&pipeline->lock);
-	(void)pthread_mutex_destroy(&pipeline->device_lock);
 	*pipeline = (sweep_pipeline){ 0 };
 }

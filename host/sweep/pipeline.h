@@ -1,5 +1,6 @@
-/* Parts of a sweep on their way through the stages: while a part is stored, others are computed, one on
- * the device and one by the threads of the host. Parts come out in the order they went in. */
+/* Parts of a sweep on their way through the stages. Each worker takes a part through all of them with a
+ * share of the threads and queues of its own on the devices, so that none waits for another; meanwhile
+ * those that are done are stored. Parts come out in the order they went in. */
 #ifndef BATTEN_SWEEP_PIPELINE_H
 #define BATTEN_SWEEP_PIPELINE_H
 
@@ -7,7 +8,8 @@
 
 #include <pthread.h>
 
-enum { PIPELINE_WORKERS = 2, PIPELINE_PARTS_MOST = PIPELINE_WORKERS + 1 };
+/* Beside the parts at work one is stored and one waits for the worker that is done first. */
+enum { PIPELINE_WORKERS_MOST = 8, PIPELINE_PARTS_MOST = PIPELINE_WORKERS_MOST + 2 };
 
 typedef enum pipeline_state { PART_FREE, PART_WAITS, PART_IN_WORK, PART_DONE } pipeline_state;
 
@@ -33,9 +35,8 @@ typedef struct sweep_pipeline {
 	const sweep_plan *plan;
 	size_t part_count, worker_count;
 	pipeline_part parts[PIPELINE_PARTS_MOST];
-	pipeline_worker workers[PIPELINE_WORKERS];
-	pthread_mutex_t device_lock; /* one batch on the devices at a time */
-	pthread_mutex_t lock;        /* of what follows and of the parts' states */
+	pipeline_worker workers[PIPELINE_WORKERS_MOST];
+	pthread_mutex_t lock; /* of what follows and of the parts' states */
 	pthread_cond_t changed;
 	size_t oldest,
 		next; /* running numbers of parts: the first that is not stored, the next to begin */
@@ -44,11 +45,15 @@ typedef struct sweep_pipeline {
 	char device[sizeof((batten_run *)0)->device];
 } sweep_pipeline;
 
-/* At most this many designs are under way at a time, in parts of one size; in_turns: one part
- * alone. The pipeline stays where it is made. Errors:
- * MEMORY. */
-batten_status sweep_pipeline_create(const sweep_plan *plan, int device, size_t designs,
-                                    bool in_turns, sweep_pipeline *pipeline);
+typedef struct pipeline_shape {
+	size_t workers; /* 1..PIPELINE_WORKERS_MOST */
+	size_t designs; /* under way at a time, at most */
+	bool in_turns;  /* one part alone, by all threads, but as large as it would be else */
+} pipeline_shape;
+
+/* The pipeline stays where it is made. Errors: MEMORY. */
+batten_status sweep_pipeline_create(const sweep_plan *plan, int device, const pipeline_shape *shape,
+                                    sweep_pipeline *pipeline);
 void sweep_pipeline_destroy(sweep_pipeline *pipeline);
 
 /* Designs of a part. */

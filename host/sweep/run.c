@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Designs under way at a time, and bytes of half-breadths that are worked at once: a design has about
- * this many arrays of them in its stages. */
+/* Designs of a part, most of a block, and bytes of half-breadths that are worked at once: a design has
+ * about this many arrays of them in its stages. */
 enum {
-	BLOCK_DEFAULT = 1536,
-	BLOCK_ON_DEVICE = 12288,
+	PART_DEFAULT = 512,
+	PART_ON_DEVICE = 4096,
 	BLOCK_MOST = 65536,
 	BLOCK_BYTES = 256 << 20,
 	ARRAYS_A_DESIGN = 24
@@ -150,27 +150,37 @@ static batten_status check_size(const sweep_plan *plan, const batten_sweep_optio
 		(unsigned long long)plan->sampling.count, BATTEN_SWEEP_LARGE);
 }
 
-/* Designs under way at a time: enough to fill what computes, few enough to show progress. */
-static size_t choose_block(const struct sweep *sweep)
+/* Whether what computes is no processor of the host. */
+static bool is_on_device(const struct sweep *sweep)
 {
 	batten_context *context = sweep->plan->context;
+	const int index = sweep->options.device >= 0 ? sweep->options.device : 0;
+	batten_device device;
+	return sweep->options.device != BATTEN_DEVICE_REFERENCE &&
+	       batten_device_count(context, NULL) > (size_t)index &&
+	       batten_device_describe(context, (size_t)index, &device) == BATTEN_OK && !device.is_cpu;
+}
+
+/* A worker a thread; two keep a device busy. Designs under way at a time: enough to fill what computes, few
+ * enough to show progress. */
+static pipeline_shape choose_shape(const struct sweep *sweep)
+{
 	const uint64_t designs = sweep->store.shard.end - sweep->store.shard.first;
+	const size_t threads = sweep->plan->context->options.threads;
+	const bool on_device = is_on_device(sweep);
+	const size_t workers_most = on_device ? 2 : PIPELINE_WORKERS_MOST;
+	pipeline_shape shape = { .in_turns = sweep->options.stages_take_turns };
+	shape.workers = threads < workers_most ? threads : workers_most;
 	size_t block = sweep->options.block;
 	if (block == 0) {
-		const int index = sweep->options.device >= 0 ? sweep->options.device : 0;
-		batten_device device;
-		const bool on_device = sweep->options.device != BATTEN_DEVICE_REFERENCE &&
-		                       batten_device_count(context, NULL) > (size_t)index &&
-		                       batten_device_describe(context, (size_t)index, &device) ==
-		                           BATTEN_OK &&
-		                       !device.is_cpu;
 		const size_t bytes = hull_node_count(sweep->plan->parent) * ARRAYS_A_DESIGN *
 		                     sizeof(double);
 		const size_t most = BLOCK_BYTES / bytes > 0 ? BLOCK_BYTES / bytes : 1;
-		block = on_device ? BLOCK_ON_DEVICE : BLOCK_DEFAULT;
+		block = (shape.workers + 2) * (on_device ? PART_ON_DEVICE : PART_DEFAULT);
 		block = block < most ? block : most;
 	}
-	return block < designs ? block : designs > 0 ? (size_t)designs : 1;
+	shape.designs = block < designs ? block : designs > 0 ? (size_t)designs : 1;
+	return shape;
 }
 
 /* What earlier runs stored, counted again. */
@@ -225,9 +235,10 @@ static batten_status end_run(struct sweep *sweep, batten_status status)
 static batten_status run_opened(struct sweep *sweep)
 {
 	batten_status status = count_stored(sweep);
+	const pipeline_shape shape = choose_shape(sweep);
 	if (status == BATTEN_OK)
-		status = sweep_pipeline_create(sweep->plan, sweep->options.device, choose_block(sweep),
-		                               sweep->options.stages_take_turns, &sweep->pipeline);
+		status = sweep_pipeline_create(sweep->plan, sweep->options.device, &shape,
+		                               &sweep->pipeline);
 	if (status == BATTEN_OK)
 		status = run_parts(sweep);
 	sweep_pipeline_destroy(&sweep->pipeline);

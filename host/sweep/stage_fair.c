@@ -158,10 +158,8 @@ static batten_status run_groups(sweep_machine *machine, const struct searches *s
 		for (end = first + 1; end < gathered; end++)
 			if (!go_together(searches->block, searches->order[first], searches->order[end]))
 				break;
-		sweep_machine_lock(machine);
 		status = search(machine->context, searches, machine->device, first, end - first,
 		                &machine->run);
-		sweep_machine_unlock(machine);
 	}
 	return status;
 }

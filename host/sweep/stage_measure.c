@@ -213,12 +213,10 @@ static batten_status run_batch(sweep_machine *machine, const struct measuring *m
 	batten_status status = gather(machine, measuring, &offsets);
 	if (status != BATTEN_OK)
 		return status;
-	sweep_machine_lock(machine);
 	batch.device = sweep_machine_device_f64(machine);
 	status = batten_hull_hydrostatics_batch(
 		machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
 		offsets.y_m, offsets.nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
-	sweep_machine_unlock(machine);
 	return status;
 }
 

@@ -118,7 +118,6 @@ static batten_status vary_batch(sweep_machine *machine, sweep_block *block, batt
 	}
 	batten_batch_options batch;
 	batten_batch_options_default(&batch);
-	sweep_machine_lock(machine);
 	batch.device = sweep_machine_device_f64(machine);
 	const batten_variants variants = { .count = block->count,
 		                               .rows = rows,
@@ -127,7 +126,6 @@ static batten_status vary_batch(sweep_machine *machine, sweep_block *block, batt
 		                               .nodes = block->nodes };
 	batten_status status = batten_hull_vary_measure(
 		machine->context, block->plan->parent, &step->fixed.options, NULL, &batch, &variants, NULL);
-	sweep_machine_unlock(machine);
 	if (status != BATTEN_OK && status != BATTEN_INCOMPLETE)
 		return status;
 	for (size_t i = 0; i < block->count; i++)

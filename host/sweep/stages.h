@@ -9,8 +9,7 @@
 typedef struct sweep_machine {
 	batten_context *context;
 	sweep_crew crew;
-	int device;                   /* as in batten_search_options */
-	pthread_mutex_t *device_lock; /* held while a batch runs on the devices; may be NULL */
+	int device;     /* as in batten_search_options */
 	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
 	void *room;     /* what stages work in; kept from part to part */
 	size_t room_size;
@@ -20,10 +19,6 @@ typedef struct sweep_machine {
 double *sweep_machine_room(sweep_machine *machine, const sweep_block *block, size_t count);
 
 void sweep_machine_destroy(sweep_machine *machine);
-
-/* Before and after a batch on the devices. */
-void sweep_machine_lock(const sweep_machine *machine);
-void sweep_machine_unlock(const sweep_machine *machine);
 
 /* What runs batches in f64: the device, or the C path where it has none. */
 int sweep_machine_device_f64(const sweep_machine *machine);
