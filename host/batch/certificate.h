@@ -8,12 +8,13 @@
 /* Room for one problem at a time. */
 typedef struct certifier {
 	const search_plan *plan; /* in f64 */
-	double rounding;         /* an offset this part of its amount from a bound is at it */
-	double *arrays;          /* SEARCH_ARRAY_COUNT * node_count, as search_pack.h lays them out */
-	double *gradient;        /* a number a node */
-	size_t *number;          /* of the unknown at a node, SIZE_MAX where there is none */
-	size_t *order;           /* nodes of the grid, the shorter direction running first */
-	double *step;            /* a node: y less this is the minimum of the parabola */
+	const batten_search_problem *problem;
+	double rounding;  /* an offset this part of its amount from a bound is at it */
+	double *arrays;   /* SEARCH_ARRAY_COUNT * node_count, as search_pack.h lays them out */
+	double *gradient; /* a number a node */
+	size_t *number;   /* of the unknown at a node, SIZE_MAX where there is none */
+	size_t *order;    /* nodes of the grid, the shorter direction running first */
+	double *step;     /* a node: y less this is the minimum of the parabola */
 } certifier;
 
 /* precision: of the search. Errors: MEMORY. */

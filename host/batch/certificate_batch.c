@@ -1,9 +1,9 @@
 /* batten_search_certify_batch, batten_search_polish_batch: the threads of the C path share the ends of a batch. */
 #include "batch/certificate.h"
+#include "batch/newton.h"
 #include "batch/workers.h"
 
 #include <math.h>
-#include <stdio.h>
 
 typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
@@ -54,10 +54,7 @@ static size_t order_sound(const batch *b, size_t count, size_t *order)
 			order[sound++] = p;
 			continue;
 		}
-		b->certificates[p] = (batten_certificate){
-			.objective = NAN, .fairness = NAN, .gradient_per_m = NAN, .gap_estimate = NAN
-		};
-		(void)snprintf(b->certificates[p].message, sizeof b->certificates[p].message, "%s", fault);
+		b->certificates[p] = newton_refused(fault);
 	}
 	return sound;
 }

@@ -6,12 +6,13 @@
 #include "batch/jet.h"
 #include "batch/search_plan.h"
 
-/* Nodes of a stencil: waterline below, of the node, above; aft to fore in each. */
-enum { GRID_STENCIL_NODES = 9 };
+/* Nodes of a stencil: waterline below, of the node, above; aft to fore in each. Derivatives of y that a
+ * term depends on. */
+enum { GRID_STENCIL_NODES = 9, GRID_TERM_VARIABLES = 5 };
 
 /* The five derivatives of y at a node (y_x, y_z, y_xx, y_xz, y_zz), each a sum over the stencil. */
 typedef struct grid_stencil {
-	double weight[JET_VARIABLES][GRID_STENCIL_NODES];
+	double weight[GRID_TERM_VARIABLES][GRID_STENCIL_NODES];
 } grid_stencil;
 
 /* At a node that is not at the grid's ends. */

@@ -103,6 +103,19 @@ static void print_net(const fair_job *job, FILE *stream)
 		print_row(stream, rows[i].name, NAN, rows[i].before, rows[i].after);
 }
 
+/* What the end of the search is worth. */
+static void print_certificate(const batten_certificate *certificate, FILE *stream)
+{
+	if (!certificate)
+		return;
+	if (certificate->message[0] != '\0')
+		(void)fprintf(stream, "no estimate of the gap to a minimum: %s\n", certificate->message);
+	else
+		(void)fprintf(stream,
+		              "gap to the minimum nearby: %.2g of the objective, by its derivatives\n",
+		              certificate->gap_estimate);
+}
+
 void fair_table_print(const fair_job *job, FILE *stream)
 {
 	const batten_fairing_facts facts = batten_fairing_describe(job->fairing);
@@ -139,4 +152,5 @@ void fair_table_print(const fair_job *job, FILE *stream)
 		facts.weights_by_noise ? " (by the noise of the offsets)" : "", facts.at_limit_count,
 		facts.variable_count, net ? "poles" : "offsets", facts.max_distance_m,
 		batten_fairing_run(job->fairing)->seconds, batten_fairing_run(job->fairing)->device);
+	print_certificate(batten_fairing_certificate(job->fairing), stream);
 }

@@ -65,7 +65,7 @@ static double noise_left(const struct work *work)
 	return fairing->facts.noise_m * sqrt(fmin(1.0, poles / fmax(1.0, offsets)));
 }
 
-/* Number of the search whose weight is taken; the faired surface is its. */
+/* Number of the search whose weight is taken. */
 static size_t choose(struct work *work, size_t count)
 {
 	struct batten_surface *faired = work->fairing->faired_surface;
@@ -75,12 +75,7 @@ static size_t choose(struct work *work, size_t count)
 		set_y(faired, work->y + i * poles);
 		changes[i] = rms_change(work);
 	}
-	const size_t chosen = work->options->weights_given
-	                          ? 0
-	                          : discrepancy_choose(count, changes, noise_left(work));
-	set_y(faired, work->y + chosen * poles);
-	work->fairing->facts.rms_change_m = changes[chosen];
-	return chosen;
+	return work->options->weights_given ? 0 : discrepancy_choose(count, changes, noise_left(work));
 }
 
 /* The half-breadths of the faired hull, and how they came about. A positive offset stays positive. */
@@ -170,6 +165,29 @@ static batten_status measure(struct work *work)
 	return status;
 }
 
+/* Of the search that is taken: its certificate, polished where that is asked for. */
+static batten_status conclude(struct work *work, const batten_net_problem *problem,
+                              const batten_net_options *how, double *y,
+                              batten_search_result *result)
+{
+	batten_fairing *fairing = work->fairing;
+	batten_certificate *certificate = &fairing->certificate;
+	const double gap = work->options->polish_gap;
+	const batten_status status = gap > 0.0 ? batten_net_polish_batch(fairing->context, 1, problem,
+	                                                                 how, gap, y, certificate)
+	                                       : batten_net_certify_batch(fairing->context, 1, problem,
+	                                                                  how, y, certificate);
+	if (status != BATTEN_OK)
+		return status;
+	fairing->certified = true;
+	if (certificate->steps > 0) {
+		result->objective_end = certificate->objective;
+		if (certificate->gap_estimate <= gap)
+			result->end = BATTEN_SEARCH_CONVERGED;
+	}
+	return BATTEN_OK;
+}
+
 static batten_status search(struct work *work)
 {
 	batten_fairing *fairing = work->fairing;
@@ -204,6 +222,12 @@ static batten_status search(struct work *work)
 			return batten_fail(fairing->context, BATTEN_INPUT, "%s: the fitted surface: %s",
 			                   fairing->smoothed->name, results[i].message);
 	const size_t chosen = choose(work, count);
+	double *y = work->y + chosen * s->count_u * s->count_v;
+	const batten_status concluded = conclude(work, &problems[chosen], &how, y, &results[chosen]);
+	if (concluded != BATTEN_OK)
+		return concluded;
+	set_y(fairing->faired_surface, y);
+	fairing->facts.rms_change_m = rms_change(work);
 	fairing->result = results[chosen];
 	fairing->facts.w1 = problems[chosen].w1;
 	fairing->facts.w2 = problems[chosen].w2;

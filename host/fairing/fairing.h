@@ -12,7 +12,7 @@ struct batten_fairing {
 	batten_replacement *replacements;
 	size_t replacement_count;
 	batten_search_result result;
-	bool certified;                 /* by a search over offsets */
+	bool certified;                 /* by a search */
 	batten_certificate certificate; /* of result */
 	batten_run run;
 	batten_fairing_facts facts;

@@ -45,10 +45,9 @@ batten_status fairing_end_check(batten_context *context, const batten_fair_optio
 		                   "found a gap of %g to polish to, expected 0 or more",
 		                   options->polish_gap);
 	if (options->polish_gap > 0.0 &&
-	    (options->variables != BATTEN_VARIABLES_OFFSETS ||
-	     options->method != BATTEN_METHOD_SEARCH || options->keep_count > 0))
+	    (options->method != BATTEN_METHOD_SEARCH || options->keep_count > 0))
 		return batten_fail(context, BATTEN_USAGE,
-		                   "only a search over offsets that keeps no measures is polished");
+		                   "only a search that keeps no measures is polished");
 	if (options->keep_count == 0)
 		return BATTEN_OK;
 	if (options->keep_count > BATTEN_KEEP_LIMIT)

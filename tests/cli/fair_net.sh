@@ -22,6 +22,15 @@ holds 'fit of the noisy hull' 'rms > 0.3 && rms < 0.6' \
 	"rms=$(member "$report" surface fit_deviation_rms_pct)"
 holds 'objective' 'after < before' "before=$(member "$report" search objective_before)" \
 	"after=$(member "$report" search objective_after)"
+holds 'what the end is worth' 'gap >= 0 && gap <= 1e-6 && gradient > 0' \
+	"gap=$(member "$report" search gap_estimate)" "gradient=$(member "$report" search gradient_per_m)"
+# shellcheck disable=SC2086
+expect 0 fair "$hull" $net --precision f32 --polish 1e-12 --device reference --out polished --quiet
+holds 'polished' 'gap <= 1e-12 && steps > 0 && after <= plain' \
+	"gap=$(member polished/report.json search gap_estimate)" \
+	"steps=$(member polished/report.json search polish_steps)" \
+	"after=$(member polished/report.json search objective_after)" \
+	"plain=$(member "$report" search objective_after)"
 
 # Any device: the same bits.
 # shellcheck disable=SC2086

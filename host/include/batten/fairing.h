@@ -117,9 +117,8 @@ typedef struct batten_fair_options {
 	 * them. */
 	const batten_keep *keep;
 	size_t keep_count; /* at most BATTEN_KEEP_LIMIT */
-	double
-		polish_gap; /* batten_search_polish_batch() to this; 0 (default): not; of OFFSETS, without
-	                      measures to keep */
+	double polish_gap; /* batten_search_polish_batch(), or that of nets, to this; 0 (default): not;
+	                      without measures to keep */
 	batten_variables variables; /* BATTEN_VARIABLES_OFFSETS */
 	batten_fairness fairness;   /* of both, in place of search.fairness; no VARIATION with
 	                                     OFFSETS, no weights of directions with NET */
@@ -151,7 +150,7 @@ BATTEN_API const batten_hull *batten_fairing_faired(const batten_fairing *fairin
 BATTEN_API size_t batten_fairing_replacement_count(const batten_fairing *fairing);
 BATTEN_API const batten_replacement *batten_fairing_replacements(const batten_fairing *fairing);
 BATTEN_API const batten_search_result *batten_fairing_result(const batten_fairing *fairing);
-/* Of a search over OFFSETS; NULL of everything else. */
+/* Of a search; NULL of everything else. */
 BATTEN_API const batten_certificate *batten_fairing_certificate(const batten_fairing *fairing);
 BATTEN_API const batten_run *batten_fairing_run(const batten_fairing *fairing);
 

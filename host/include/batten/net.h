@@ -53,6 +53,24 @@ BATTEN_API batten_status batten_net_search_batch(batten_context *context, size_t
                                                  const batten_net_options *options, double *y_m,
                                                  batten_search_result *results, batten_run *run);
 
+/* Judges the ends of count searches, as batten_search_certify_batch() does those over offsets: free are the
+ * poles that are not fixed, nor held at a bound by the gradient; those that move together are one.
+ * fairness of a certificate is the integral of fairness dA. Problems, options and y_m as given to and by
+ * batten_net_search_batch(). Returns INCOMPLETE when a problem is invalid or y not finite (its numbers
+ * are NaN, message says why). Errors: USAGE, MEMORY. */
+BATTEN_API batten_status batten_net_certify_batch(batten_context *context, size_t count,
+                                                  const batten_net_problem *problems,
+                                                  const batten_net_options *options,
+                                                  const double *y_m,
+                                                  batten_certificate *certificates);
+
+/* Goes on from the ends y_m, in double, until the gap estimate of each is at most `gap` (above 0), as
+ * batten_search_polish_batch() does. */
+BATTEN_API batten_status batten_net_polish_batch(batten_context *context, size_t count,
+                                                 const batten_net_problem *problems,
+                                                 const batten_net_options *options, double gap,
+                                                 double *y_m, batten_certificate *certificates);
+
 #ifdef __cplusplus
 }
 #endif

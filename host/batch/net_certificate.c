@@ -1,0 +1,306 @@
+#include "batch/net_certificate.h"
+
+#include "batch/net_pack.h"
+#include "batch/net_terms.h"
+#include "batch/newton.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const size_t none = SIZE_MAX;
+
+void net_certifier_release(net_certifier *c)
+{
+	batten_context *context = c->plan.context;
+	batten_release(context, c->samples);
+	batten_release(context, c->arrays);
+	batten_release(context, c->rooms);
+	batten_release(context, c->way);
+	batten_release(context, c->gradient);
+	batten_release(context, c->step);
+	batten_release(context, c->number);
+}
+
+batten_status net_certifier_create(const net_plan *plan, net_certifier *c)
+{
+	batten_context *context = plan->context;
+	const size_t poles = net_plan_poles(plan);
+	/* What a search gives back has been through y = start + way: a few roundings. */
+	const double epsilon = plan->options.precision == BATTEN_F32 ? (double)FLT_EPSILON
+	                                                             : DBL_EPSILON;
+	*c = (net_certifier){ .plan = *plan, .rounding = 4.0 * epsilon };
+	c->plan.options.precision = BATTEN_F64;
+	c->samples = batten_allocate(context, net_pack_sample_count(&c->plan), sizeof *c->samples);
+	c->arrays = batten_allocate(context, poles, NET_ARRAY_COUNT * sizeof *c->arrays);
+	c->rooms = batten_allocate(context, poles, sizeof *c->rooms);
+	c->way = batten_allocate(context, poles, sizeof *c->way);
+	c->gradient = batten_allocate(context, poles, sizeof *c->gradient);
+	c->step = batten_allocate(context, poles, sizeof *c->step);
+	c->number = batten_allocate(context, poles, sizeof *c->number);
+	const bool all = c->samples && c->arrays && c->rooms && c->way && c->gradient && c->step &&
+	                 c->number;
+	return all ? BATTEN_OK : BATTEN_MEMORY;
+}
+
+/* Makes ready for an item. */
+static void begin(net_certifier *c, size_t which)
+{
+	double settings[NET_SETTING_COUNT];
+	c->item = &c->plan.items[which];
+	net_pack(&c->plan, which, 0, 1, c->samples, c->arrays, settings, c->rooms);
+	c->rounded = sqrt(settings[NET_SETTING_ROUNDING]);
+}
+
+static const double *sample_of(const net_certifier *c, size_t line, size_t sample)
+{
+	return c->samples + (line * c->plan.u.count + sample) * net_plan_sample_size(&c->plan);
+}
+
+/* The energy of a sample; false where it has none. off: y less target there. */
+static bool term_of(const net_certifier *c, const net_patch *patch, const double *sample,
+                    double *off, jet *term)
+{
+	double way[NET_TERM_VARIABLES_MOST] = { 0.0 };
+	*off = 0.0;
+	for (size_t n = 0; n < patch->count; n++)
+		*off += patch->at[n] * c->way[patch->poles[n]];
+	if (!(sample[NET_SAMPLE_FAIR] > 0.0))
+		return false;
+	for (int d = 0; d < patch->variables; d++)
+		for (size_t n = 0; n < patch->count; n++)
+			way[d] += patch->weight[d][n] * c->way[patch->poles[n]];
+	*term = jet_scale(net_density_of(&c->plan, sample, way, c->rounded), sample[NET_SAMPLE_FAIR]);
+	return true;
+}
+
+/* The objective at `way`, its part of fairness, and its gradient at every pole by itself. */
+static double differentiate(net_certifier *c, double *fairness)
+{
+	double close = 0.0;
+	*fairness = 0.0;
+	for (size_t n = 0; n < net_plan_poles(&c->plan); n++)
+		c->gradient[n] = 0.0;
+	for (size_t line = 0; line < c->plan.v.count; line++)
+		for (size_t i = 0; i < c->plan.u.count; i++) {
+			const double *sample = sample_of(c, line, i);
+			net_patch patch;
+			double off;
+			jet term = { 0 };
+			net_patch_of(&c->plan, line, i, &patch);
+			const bool bends = term_of(c, &patch, sample, &off, &term);
+			close += sample[NET_SAMPLE_CLOSE] * off * off;
+			*fairness += term.value;
+			for (size_t n = 0; n < patch.count; n++) {
+				double slope = 2.0 * sample[NET_SAMPLE_CLOSE] * off * patch.at[n];
+				for (int d = 0; bends && d < patch.variables; d++)
+					slope += term.first[d] * patch.weight[d][n];
+				c->gradient[patch.poles[n]] += slope;
+			}
+		}
+	return *fairness + close;
+}
+
+/* Numbers the leaders that are free: with room, and not held at its end by the gradient. last: what those
+ * held still gain by the slope on their last way to the bound, the rounding of the search. */
+static size_t number_unknowns(net_certifier *c, double *last)
+{
+	const net_plan *plan = &c->plan;
+	const size_t columns = plan->u.poles;
+	const size_t rows = plan->v.poles;
+	const size_t poles = columns * rows;
+	size_t count = 0;
+	for (size_t n = 0; n < poles; n++)
+		if (plan->leader[n] != n)
+			c->gradient[plan->leader[n]] += c->gradient[n];
+	for (size_t o = 0; o < poles; o++) {
+		/* The shorter direction runs first, for a narrow band. */
+		const size_t n = columns < rows ? o : o % rows * columns + o / rows;
+		const double start = net_start_of(c->item, n);
+		const double gone = c->item->target_y_m[n] + c->way[n] - start;
+		const double near = c->rounding * (fabs(start) + fabs(gone) + fabs(c->item->target_y_m[n]));
+		const bool down = gone <= c->rooms[n].down + near && c->gradient[n] >= 0.0;
+		const bool up = gone >= c->rooms[n].up - near && c->gradient[n] <= 0.0;
+		c->number[n] = none;
+		c->step[n] = 0.0;
+		if (plan->leader[n] != n || !(c->rooms[n].down < c->rooms[n].up))
+			continue;
+		if (down || up) {
+			c->step[n] = gone - (down ? c->rooms[n].down : c->rooms[n].up);
+			*last += c->gradient[n] * c->step[n];
+		} else {
+			c->number[n] = count++;
+		}
+	}
+	for (size_t n = 0; n < poles; n++)
+		c->number[n] = c->number[plan->leader[n]];
+	return count;
+}
+
+static size_t band_width(const net_certifier *c)
+{
+	size_t width = 0;
+	for (size_t line = 0; line < c->plan.v.count; line += c->plan.v.points)
+		for (size_t i = 0; i < c->plan.u.count; i += c->plan.u.points) {
+			net_patch patch;
+			size_t least = none;
+			size_t most = 0;
+			net_patch_of(&c->plan, line, i, &patch);
+			for (size_t n = 0; n < patch.count; n++) {
+				const size_t number = c->number[patch.poles[n]];
+				if (number == none)
+					continue;
+				least = number < least ? number : least;
+				most = number > most ? number : most;
+			}
+			if (least != none && most - least > width)
+				width = most - least;
+		}
+	return width;
+}
+
+/* S w of a term: what each of its second derivatives meets at a pole. */
+static void meet(const net_patch *patch, size_t n, const jet *term,
+                 double by[NET_TERM_VARIABLES_MOST])
+{
+	for (int i = 0, at = 0; i < term->variables; i++) {
+		by[i] = 0.0;
+		for (int j = 0; j <= i; j++, at++) {
+			by[j] += patch->weight[i][n] * term->second[at];
+			if (i != j)
+				by[i] += patch->weight[j][n] * term->second[at];
+		}
+	}
+}
+
+/* What each pair of a sample's poles has of the Hessian, into the band. */
+static void add_term(const net_certifier *c, size_t width, const net_patch *patch, double close,
+                     const jet *term, double *band)
+{
+	for (size_t n = 0; n < patch->count; n++) {
+		const size_t row = c->number[patch->poles[n]];
+		double by[NET_TERM_VARIABLES_MOST];
+		if (row == none)
+			continue;
+		meet(patch, n, term, by);
+		for (size_t m = 0; m < patch->count; m++) {
+			const size_t column = c->number[patch->poles[m]];
+			if (column == none || column > row)
+				continue;
+			double sum = 2.0 * close * patch->at[n] * patch->at[m];
+			for (int d = 0; d < term->variables; d++)
+				sum += by[d] * patch->weight[d][m];
+			band[row * (width + 1) + width - (row - column)] += sum;
+		}
+	}
+}
+
+static void assemble(const void *of, size_t width, double *band)
+{
+	const net_certifier *c = (const net_certifier *)of;
+	for (size_t line = 0; line < c->plan.v.count; line++)
+		for (size_t i = 0; i < c->plan.u.count; i++) {
+			const double *sample = sample_of(c, line, i);
+			net_patch patch;
+			double off;
+			jet term = { 0 };
+			net_patch_of(&c->plan, line, i, &patch);
+			(void)term_of(c, &patch, sample, &off, &term);
+			add_term(c, width, &patch, sample[NET_SAMPLE_CLOSE], &term, band);
+		}
+}
+
+static batten_status estimate(net_certifier *c, double last, batten_certificate *out)
+{
+	batten_context *context = c->plan.context;
+	const size_t poles = net_plan_poles(&c->plan);
+	double *step = batten_allocate(context, out->free_count, sizeof *step);
+	if (!step)
+		return BATTEN_MEMORY;
+	for (size_t n = 0; n < poles; n++)
+		if (c->number[n] != none && c->plan.leader[n] == n)
+			step[c->number[n]] = c->gradient[n];
+	const newton_system system = { .context = context,
+		                           .count = out->free_count,
+		                           .width = band_width(c),
+		                           .last = last,
+		                           .assemble = assemble,
+		                           .of = c };
+	const batten_status status = newton_estimate(&system, step, out);
+	for (size_t n = 0; n < poles; n++)
+		if (c->number[n] != none)
+			c->step[n] = step[c->number[n]];
+	batten_release(context, step);
+	return status;
+}
+
+/* Fairness as an integral, without its weight. */
+static double unweighed(const net_certifier *c, double fairness)
+{
+	const double h = c->item->half_beam_m;
+	const double scale = c->plan.fairness == NET_FAIRNESS_VARIATION ? h * h : 1.0;
+	return c->item->w1 > 0.0 ? fairness / (c->item->w1 * scale) : NAN;
+}
+
+static batten_status judge(void *of, const double *y_m, batten_certificate *out)
+{
+	net_certifier *c = (net_certifier *)of;
+	const size_t poles = net_plan_poles(&c->plan);
+	double fairness = 0.0;
+	double last = 0.0;
+	double square = 0.0;
+	*out = (batten_certificate){ .gap_estimate = NAN };
+	for (size_t n = 0; n < poles; n++)
+		c->way[n] = y_m[n] - c->item->target_y_m[n];
+	out->objective = differentiate(c, &fairness);
+	out->fairness = unweighed(c, fairness);
+	out->free_count = number_unknowns(c, &last);
+	for (size_t n = 0; n < poles; n++)
+		if (c->number[n] != none && c->plan.leader[n] == n)
+			square += c->gradient[n] * c->gradient[n];
+	out->gradient_per_m = sqrt(square);
+	if (!isfinite(out->objective) || !isfinite(square)) {
+		(void)snprintf(out->message, sizeof out->message, "the objective is not finite");
+		return BATTEN_OK;
+	}
+	return estimate(c, last, out);
+}
+
+static double go(void *of, const double *from, double part, double *y_m)
+{
+	net_certifier *c = (net_certifier *)of;
+	double fairness = 0.0;
+	for (size_t n = 0; n < net_plan_poles(&c->plan); n++) {
+		const size_t leader = c->plan.leader[n];
+		const double start = net_start_of(c->item, leader);
+		const double gone = fmin(
+			fmax(from[leader] - part * c->step[leader] - start, c->rooms[leader].down),
+			c->rooms[leader].up);
+		y_m[n] = from[n];
+		if (c->rooms[leader].down < c->rooms[leader].up)
+			y_m[n] = fmin(fmax(net_start_of(c->item, n) + gone, c->item->lower_y_m[n]),
+			              c->item->upper_y_m[n]);
+		c->way[n] = y_m[n] - c->item->target_y_m[n];
+	}
+	return differentiate(c, &fairness);
+}
+
+batten_status net_certifier_run(net_certifier *c, size_t which, const double *y_m,
+                                batten_certificate *out)
+{
+	begin(c, which);
+	return judge(c, y_m, out);
+}
+
+batten_status net_certifier_polish(net_certifier *c, size_t which, double gap, double *y_m,
+                                   batten_certificate *out)
+{
+	const newton_way way = { .context = c->plan.context,
+		                     .count = net_plan_poles(&c->plan),
+		                     .judge = judge,
+		                     .go = go,
+		                     .of = c };
+	begin(c, which);
+	return newton_polish(&way, gap, y_m, out);
+}
