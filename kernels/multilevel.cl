@@ -186,6 +186,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
 	s.level_count = level_count;
 	s.colour_count = level_count * SEARCH_COLOUR_COUNT;
+	s.wide_colours = search_wide_levels(levels, level_count) * SEARCH_COLOUR_COUNT;
 	s.levels = levels;
 	s.centres = centres;
 	search_run(&s, iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes,

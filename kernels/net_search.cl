@@ -41,6 +41,8 @@ kernel void net_search(global const int *shape, global const int *first_u,
 	s.length = shape[NET_SHAPE_LENGTH];
 	s.lines = shape[NET_SHAPE_LINES];
 	s.colour_count = shape[NET_SHAPE_COLOURS];
+	s.wide_colours = 0;
+	s.wide_probes = SPREAD(LITERAL(0.0));
 #if defined(STATE_IS_GLOBAL)
 	room += group * NET_STATE_COUNT * (size_t)s.nodes;
 #endif

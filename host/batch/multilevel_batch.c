@@ -52,21 +52,16 @@ static batten_status run_on_reference(batch_work *work)
 	return status;
 }
 
-/* Two probes a direction and iteration, and what the searches counted beyond; the textbook search
- * counts all. */
-static batten_status count_probes(const batch *b)
+/* Two probes a direction and iteration, and what the searches counted beyond, wide levels among it; the
+ * textbook search counts all. */
+static void count_probes(const batch *b)
 {
-	uint8_t *scratch = batten_allocate(b->work.context, b->plan->station_count,
-	                                   b->plan->waterline_count);
-	if (!scratch)
-		return BATTEN_MEMORY;
+	const int narrow = b->plan->level_count - search_plan_wide_levels(b->plan);
 	for (size_t p = 0; p < b->call->count; p++)
 		if (b->call->results[p].end != BATTEN_SEARCH_REFUSED)
 			b->call->results[p].probes += 2 * (uint64_t)b->call->results[p].iterations *
 			                              search_problem_directions(b->plan, &b->call->problems[p],
-			                                                        scratch);
-	batten_release(b->work.context, scratch);
-	return BATTEN_OK;
+			                                                        0, narrow);
 }
 
 batten_status multilevel_batch_run(const search_call *call, batten_run *run)
@@ -84,7 +79,7 @@ batten_status multilevel_batch_run(const search_call *call, batten_run *run)
 		status = search_batch_work(call, b.plan, &b.work, run);
 	if (status == BATTEN_OK && call->count > 0 &&
 	    call->options->algorithm != BATTEN_ALGORITHM_TEXTBOOK)
-		status = count_probes(&b);
+		count_probes(&b);
 	search_plan_destroy(b.plan);
 	return status;
 }

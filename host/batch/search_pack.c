@@ -115,6 +115,9 @@ void search_pack(const search_plan *plan, const batten_search_problem *problem, 
 	put(plan, settings, SEARCH_SETTING_ACROSS * lanes + lane,
 	    sqrt(plan->options.transverse_weight));
 	put(plan, settings, SEARCH_SETTING_BLUNT * lanes + lane, blunt * blunt);
+	const int narrow = plan->level_count - search_plan_wide_levels(plan);
+	put(plan, settings, SEARCH_SETTING_WIDE_PROBES * lanes + lane,
+	    2.0 * (double)search_problem_directions(plan, problem, narrow, plan->level_count));
 }
 
 double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,

@@ -11,6 +11,7 @@
 #define BATTEN_DOUBLE 1
 #include "shared/dialect.h"
 #include "shared/grid_energy.h"
+#include "shared/multilevel.h"
 
 /* Larger ones would make the objective overflow. */
 #define WEIGHT_LIMIT 1e100
@@ -85,16 +86,19 @@ static bool can_move(const batten_search_problem *problem, size_t node)
 	       problem->lower_m[node] < problem->upper_m[node];
 }
 
-/* Whether a node under the hat is marked in movable. */
+/* Whether a node under the hat is marked in movable; where that is NULL, whether the problem's can move. */
 static bool direction_moves(const search_plan *plan, const uint8_t *movable,
-                            const search_level *level, int station, int waterline)
+                            const batten_search_problem *problem, const search_level *level,
+                            int station, int waterline)
 {
 	for (int k = waterline - level->width_z + 1; k < waterline + level->width_z; k++)
 		for (int i = station - level->width_x + 1; i < station + level->width_x; i++)
 			if (k >= 0 && k < (int)plan->waterline_count && i >= 0 &&
-			    i < (int)plan->station_count &&
-			    movable[(size_t)k * plan->station_count + (size_t)i])
-				return true;
+			    i < (int)plan->station_count) {
+				const size_t node = (size_t)k * plan->station_count + (size_t)i;
+				if (movable ? movable[node] : can_move(problem, node))
+					return true;
+			}
 	return false;
 }
 
@@ -114,7 +118,7 @@ static size_t add_colour(const search_plan *plan, const search_level *level, siz
 		for (size_t a = colour % 3; a < along_x; a += 3) {
 			const int station = (int)a * level->width_x;
 			const int waterline = (int)b * level->width_z;
-			if (!direction_moves(plan, movable, level, station, waterline))
+			if (!direction_moves(plan, movable, NULL, level, station, waterline))
 				continue;
 			if (centres) {
 				centres[2 * added] = station;
@@ -374,17 +378,19 @@ const char *search_problem_fault(const search_plan *plan, const batten_search_pr
 	return NULL;
 }
 
-uint64_t search_problem_directions(const search_plan *plan, const batten_search_problem *problem,
-                                   uint8_t *scratch)
+int search_plan_wide_levels(const search_plan *plan)
 {
-	const size_t nodes = plan->station_count * plan->waterline_count;
-	for (size_t n = 0; n < nodes; n++)
-		scratch[n] = can_move(problem, n);
+	return search_wide_levels(&plan->levels[0].width_x, plan->level_count);
+}
+
+uint64_t search_problem_directions(const search_plan *plan, const batten_search_problem *problem,
+                                   int first_level, int end_level)
+{
 	uint64_t directions = 0;
-	for (int l = 0; l < plan->level_count; l++)
+	for (int l = first_level; l < end_level; l++)
 		for (int d = plan->levels[l].first[0]; d < plan->levels[l].first[SEARCH_COLOUR_COUNT]; d++)
-			directions += direction_moves(plan, scratch, &plan->levels[l], plan->centres[2 * d],
-			                              plan->centres[2 * d + 1]);
+			directions += direction_moves(plan, NULL, problem, &plan->levels[l],
+			                              plan->centres[2 * d], plan->centres[2 * d + 1]);
 	return directions;
 }
 

@@ -72,9 +72,11 @@ void search_plan_destroy(search_plan *plan);
 /* Why a problem cannot be searched, or NULL. */
 const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem);
 
-/* Directions that can move at least one node of this problem; scratch has a byte a node of the
- * grid. */
+/* How many of the levels, the last ones, wait for their turn (shared/multilevel.h). */
+int search_plan_wide_levels(const search_plan *plan);
+
+/* Directions of levels first_level .. end_level - 1 that can move at least one node of this problem. */
 uint64_t search_problem_directions(const search_plan *plan, const batten_search_problem *problem,
-                                   uint8_t *scratch);
+                                   int first_level, int end_level);
 
 #endif

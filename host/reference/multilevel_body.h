@@ -16,6 +16,7 @@ typedef struct search_state {
 	const scalar *lower, *upper, *target, *bend, *close;
 	int fairness;
 	grid_weights weights;
+	scalar wide_probes;
 } search_state;
 
 /* A direction with a step: 0 everywhere but under the hat. */
@@ -160,12 +161,12 @@ static scalar explore(const search_state *s, hat_move *move, scalar h, uint64_t 
 	return step < LITERAL(0.0) ? -step : step;
 }
 
-/* All directions, coarse to fine. Returns the longest step taken. */
-static scalar sweep(const reference_multilevel *plan, const search_state *s, scalar h,
-                    uint64_t *extra)
+/* The directions of levels below `above` down to `lowest`. Returns the longest step taken. */
+static scalar sweep(const reference_multilevel *plan, const search_state *s, int above, int lowest,
+                    scalar h, uint64_t *extra)
 {
 	scalar longest = LITERAL(0.0);
-	for (int l = plan->level_count - 1; l >= 0; l--) {
+	for (int l = above - 1; l >= lowest; l--) {
 		const int32_t *level = plan->levels + l * SEARCH_LEVEL_SIZE;
 		const int32_t *first = level + SEARCH_LEVEL_FIRST;
 		hat_move move = { .width_x = level[SEARCH_LEVEL_WIDTH_X],
@@ -212,6 +213,37 @@ static scalar pattern(const search_state *s, const scalar *base, scalar objectiv
 	return objective;
 }
 
+/* What an iteration came to. */
+typedef struct iteration {
+	scalar objective, longest;
+	bool wide_pays;
+} iteration;
+
+/* Exploratory moves, coarse to fine, and the pattern move. */
+static iteration iterate(const reference_multilevel *plan, const search_state *s, bool wide_is_due,
+                         scalar objective, scalar h, scalar *scratch, uint64_t *extra)
+{
+	scalar *base = scratch;
+	const int wide_levels = search_wide_levels(plan->levels, plan->level_count);
+	const int narrow = plan->level_count - wide_levels;
+	iteration done = { .objective = objective };
+	scalar after_wide = objective;
+	memcpy(base, s->y, s->nodes * sizeof *base);
+	if (wide_levels > 0 && wide_is_due) {
+		done.longest = sweep(plan, s, plan->level_count, narrow, h, extra);
+		after_wide = whole_objective(s, s->y);
+		*extra += (uint64_t)s->wide_probes;
+	}
+	const scalar longest = sweep(plan, s, narrow, 0, h, extra);
+	done.longest = longest > done.longest ? longest : done.longest;
+	if (done.longest > LITERAL(0.0)) {
+		done.objective = whole_objective(s, s->y);
+		done.objective = pattern(s, base, done.objective, scratch + s->nodes, extra);
+	}
+	done.wide_pays = objective - after_wide > WIDE_SHARE * (after_wide - done.objective);
+	return done;
+}
+
 void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencils, scalar *arrays,
                          const scalar *settings, scalar *outcome, scalar *scratch)
 {
@@ -232,26 +264,24 @@ void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencil
 		                     .fairness = plan->fairness,
 		                     .weights = { settings[SEARCH_SETTING_ALONG],
 		                                  settings[SEARCH_SETTING_ACROSS],
-		                                  settings[SEARCH_SETTING_BLUNT] } };
-	scalar *base = scratch;
-	scalar *trial = scratch + nodes;
+		                                  settings[SEARCH_SETTING_BLUNT] },
+		                     .wide_probes = settings[SEARCH_SETTING_WIDE_PROBES] };
 	scalar h = settings[SEARCH_SETTING_FIRST_STEP];
 	scalar objective = whole_objective(&s, s.y);
 	uint64_t extra = 0;
 	int iterations = 0;
 	int moves = 0;
+	bool wide_pays = false;
 	outcome[SEARCH_OUTCOME_START] = objective;
 	while (h > settings[SEARCH_SETTING_LAST_STEP] && iterations < plan->iteration_limit) {
-		memcpy(base, s.y, nodes * sizeof *base);
-		const scalar longest = sweep(plan, &s, h, &extra);
-		if (longest > LITERAL(0.0)) {
-			objective = whole_objective(&s, s.y);
-			objective = pattern(&s, base, objective, trial, &extra);
-			moves++;
-		}
-		if (longest < h)
-			h *= LITERAL(0.5);
 		iterations++;
+		const iteration done = iterate(plan, &s, wide_pays || iterations % WIDE_TURNS == 0,
+		                               objective, h, scratch, &extra);
+		objective = done.objective;
+		wide_pays = done.wide_pays;
+		moves += done.longest > LITERAL(0.0);
+		if (done.longest < h)
+			h *= LITERAL(0.5);
 	}
 	outcome[SEARCH_OUTCOME_END] = objective;
 	outcome[SEARCH_OUTCOME_STEP] = h;

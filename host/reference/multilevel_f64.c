@@ -1,6 +1,7 @@
 #include "reference/multilevel.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define BATTEN_DOUBLE 1

@@ -14,10 +14,11 @@ typedef struct search_state {
 	GLOBAL const scalar *along_x, *along_z;
 	STATE real *y, *base, *trial;
 	GLOBAL const real *lower, *upper, *target, *bend, *close;
-	int level_count, colour_count; /* the rest is for those that work along hats */
+	int level_count, colour_count, wide_colours; /* the rest is for those that work along hats */
 	GLOBAL const int *levels, *centres;
 	LOCAL real *lines; /* one sum a waterline */
 	grid_weights weights;
+	real wide_probes;
 	int fairness; /* in C, for GRID_FAIRNESS */
 } search_state;
 
@@ -90,6 +91,7 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.weights.along = settings[SEARCH_SETTING_ALONG];
 	s.weights.across = settings[SEARCH_SETTING_ACROSS];
 	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
+	s.wide_probes = settings[SEARCH_SETTING_WIDE_PROBES];
 	return s;
 }
 

@@ -9,8 +9,31 @@
 #define BATTEN_SHARED_MULTILEVEL_H
 
 #include "dialect.h"
+#include "search_layout.h"
 
 #define PATTERN_LIMIT 7 /* longest pattern move: 2^6 times the last exploratory move */
+
+/* Once one direction's hats are as wide as the table lets them, levels go on along the other alone. They
+ * rarely gain, and the kinks they leave the finer levels have to smooth again; on long tables nearly all
+ * that is left may be theirs. So they are worked every WIDE_TURNS iterations, and again in the next one
+ * where they gained at least WIDE_SHARE of what the rest of the iteration did. */
+#define WIDE_TURNS 4
+#define WIDE_SHARE LITERAL(0.25)
+
+/* How many levels, the last ones, those are. */
+SHARED_FUNCTION int search_wide_levels(GLOBAL const int *levels, int level_count)
+{
+	int count = 0;
+	for (int l = 1; l < level_count; l++) {
+		GLOBAL const int *level = levels + l * SEARCH_LEVEL_SIZE;
+		GLOBAL const int *finer = level - SEARCH_LEVEL_SIZE;
+		const int x = level[SEARCH_LEVEL_WIDTH_X];
+		const int z = level[SEARCH_LEVEL_WIDTH_Z];
+		count += (x > 1 && x == finer[SEARCH_LEVEL_WIDTH_X]) ||
+		         (z > 1 && z == finer[SEARCH_LEVEL_WIDTH_Z]);
+	}
+	return count;
+}
 
 /* A gain below this part of the sum it was found in is rounding, not a gain. */
 #if BATTEN_DOUBLE

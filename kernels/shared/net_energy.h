@@ -19,7 +19,7 @@ typedef struct search_state {
 	int nodes;         /* poles */
 	int columns;       /* poles along u */
 	int lines, length; /* samples along v, along u */
-	int colour_count;
+	int colour_count, wide_colours;
 	int order_u, order_v, fairness;
 	STATE real *y, *base, *trial, *ways; /* [v][u] */
 	GLOBAL const real *lower, *upper;
@@ -29,7 +29,7 @@ typedef struct search_state {
 	GLOBAL const scalar *heights;                     /* of the members */
 	GLOBAL const real *samples;                       /* [line][sample][NET_SAMPLE_SIZE] */
 	LOCAL real *sums;                                 /* one a line */
-	real rounding;
+	real rounding, wide_probes;
 } search_state;
 
 typedef struct search_move {

@@ -12,6 +12,26 @@
 
 #include "search_moves.h"
 
+/* The wide levels of an iteration, for the lanes whose turn it is; p->wide is the objective after them.
+ * Returns the longest step this work-item took. */
+SHARED_FUNCTION real search_wide_sweep(const search_state *s, int turn, real h, real *extra,
+                                       search_progress *p)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real due = turn % WIDE_TURNS == 0 ? h : CHOOSE(p->wide_pays > zero, h, zero);
+	p->wide = p->objective;
+	if (s->wide_colours == 0 || !ANY(due > zero))
+		return zero;
+	const real longest = search_sweep(s, 0, s->wide_colours, due, extra);
+	ROLLED
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
+		s->trial[n] = s->y[n];
+	WAIT;
+	p->wide = whole_objective(s);
+	search_count(p, CHOOSE(due > zero, s->wide_probes, zero));
+	return longest;
+}
+
 /* One iteration of the lanes that are active. Turn 0 only evaluates the start. */
 SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active, mask unlimited,
                                     LOCAL real *gathered, search_progress *p)
@@ -19,6 +39,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
 	real longest = zero;
+	const real before = p->objective;
 	mask going = unlimited;
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
@@ -26,7 +47,10 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	WAIT;
 	if (turn > 0) {
 		real extra = zero;
-		longest = search_sweep(s, CHOOSE(active, p->step, zero), &extra);
+		const real h = CHOOSE(active, p->step, zero);
+		const real wide = search_wide_sweep(s, turn, h, &extra, p);
+		longest = search_sweep(s, s->wide_colours, s->colour_count, h, &extra);
+		longest = CHOOSE(wide > longest, wide, longest);
 		search_gather(gathered, &longest, &extra);
 		search_count(p, extra);
 		going = active & (longest > zero);
@@ -36,6 +60,8 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 		search_pattern(s, going, turn, p);
 	if (turn == 0)
 		return;
+	const mask pays = before - p->wide > SPREAD(WIDE_SHARE) * (p->wide - p->objective);
+	p->wide_pays = CHOOSE(pays, one, zero);
 	p->step = CHOOSE(active & (longest < p->step), p->step * SPREAD(LITERAL(0.5)), p->step);
 	p->iterations += CHOOSE(active, one, zero);
 }
@@ -49,7 +75,8 @@ SHARED_FUNCTION void search_run(const search_state *s, int iteration_limit,
 	const real zero = SPREAD(LITERAL(0.0));
 	const real limit = SPREAD((scalar)iteration_limit);
 	const real last_step = settings[SEARCH_SETTING_LAST_STEP];
-	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero };
+	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero, zero,
+		                  zero };
 	real start = zero;
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)

@@ -35,6 +35,7 @@ enum {
 	SEARCH_SETTING_ALONG, /* the rest: grid_weights of grid_energy.h */
 	SEARCH_SETTING_ACROSS,
 	SEARCH_SETTING_BLUNT,
+	SEARCH_SETTING_WIDE_PROBES, /* two for each direction of the wide levels (multilevel.h) */
 	SEARCH_SETTING_COUNT
 };
 enum {
@@ -43,7 +44,8 @@ enum {
 	SEARCH_OUTCOME_STEP,  /* last step */
 	SEARCH_OUTCOME_ITERATIONS,
 	SEARCH_OUTCOME_MOVES,      /* iterations whose exploratory moves gained */
-	SEARCH_OUTCOME_EXTRA_HIGH, /* probes beyond two a direction: high * 2^20 + low */
+	SEARCH_OUTCOME_EXTRA_HIGH, /* probes beyond two a direction and iteration: high * 2^20 + low;
+	                            * those of the wide levels all */
 	SEARCH_OUTCOME_EXTRA_LOW,
 	SEARCH_OUTCOME_COUNT
 };

@@ -4,7 +4,9 @@
  *
  * Defined before this is included:
  *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
- *                      colour_count; whatever the objective needs
+ *                      colour_count; wide_colours, those of them, the first, that wait for their turn
+ *                      (multilevel.h), and wide_probes, a real, two for each of their directions;
+ *                      whatever the objective needs
  *   search_move        step: real; whatever tells one direction from another
  *   void move_begin(const search_state *, int colour, int direction, search_move *)
  *   real move_objective(const search_state *, const search_move *)
@@ -66,12 +68,13 @@ SHARED_FUNCTION real search_explore(const search_state *s, search_move *move, re
 	return CHOOSE(move->step < zero, -move->step, move->step);
 }
 
-/* All directions, coarse to fine. Returns the longest step this work-item took. */
-SHARED_FUNCTION real search_sweep(const search_state *s, real h, real *extra)
+/* The directions of some colours. Returns the longest step this work-item took. */
+SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int end_colour, real h,
+                                  real *extra)
 {
 	real longest = SPREAD(LITERAL(0.0));
 	ROLLED
-	for (int colour = 0; colour < s->colour_count; colour++) {
+	for (int colour = first_colour; colour < end_colour; colour++) {
 		int first = 0;
 		int end = 0;
 		colour_range(s, colour, &first, &end);

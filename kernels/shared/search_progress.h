@@ -8,6 +8,8 @@
 /* What a lane has come to; the same in every work-item. */
 typedef struct search_progress {
 	real objective, step, iterations, moves, extra_high, extra_low;
+	real wide,
+		wide_pays; /* objective after the wide levels; 1 where they go on in the next iteration */
 } search_progress;
 
 SHARED_FUNCTION void search_count(search_progress *p, real probes)

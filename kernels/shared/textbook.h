@@ -84,7 +84,8 @@ SHARED_FUNCTION void textbook_run(const search_state *s, int iteration_limit,
 	const real one = SPREAD(LITERAL(1.0));
 	const real limit = SPREAD((scalar)iteration_limit);
 	const real last_step = settings[SEARCH_SETTING_LAST_STEP];
-	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero };
+	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero, zero,
+		                  zero };
 	real pattern = zero; /* 1 where trial is a pattern point */
 	real start = zero;
 	ROLLED
