@@ -11,8 +11,28 @@
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
 #include "shared/pass_numbers.h"
-#include "shared/pass_run.h"
 #include "shared/turn.h"
+
+/* Lines of the cache that are still to be fetched, some beside every piece of work: fetched at one go they are
+ * waited for. */
+typedef struct pass_beside {
+	global const number *from; /* of the hulls that this group takes next */
+	global number *to;         /* where these go */
+	size_t at, due, end, step; /* numbers; the step in a part of the time */
+} pass_beside;
+
+static inline void fetch(pass_beside *f, size_t time)
+{
+	enum { LINE = 64 / sizeof(number) };
+	f->due += time * f->step;
+	ROLLED
+	for (; f->at < min(f->due, f->end); f->at += WORK_ITEMS * LINE) {
+		FETCH(f->from + f->at);
+		FETCH_TO_WRITE(f->to + f->at);
+	}
+}
+#define PASS_BESIDE(beside, time) fetch(beside, time)
+#include "shared/pass_run.h"
 
 /* The values of the lanes' hulls, each beside its next: hull l begins at from + l * values. Lanes
  * beyond the last hull work that one again. */
@@ -63,20 +83,21 @@ static inline void give_back(global const real *state, int values, int hulls, gl
 	}
 }
 
-/* The hulls that this group takes next on their way into the cache, and where these go. */
-static inline void fetch(global const number *from, global number *to, int first, int hulls,
-                         int values)
+/* What is to be fetched while the hulls from `first` on are worked, in that time. */
+static inline pass_beside begin_fetch(global const number *from, global number *to, int first,
+                                      int hulls, int values, int time)
 {
 	enum { LINE = 64 / sizeof(number) };
 	const size_t next = (size_t)first + get_num_groups(0) * BATTEN_LANES;
 	const size_t here = hulls - first < BATTEN_LANES ? hulls - first : BATTEN_LANES;
+	const bool whole = next + BATTEN_LANES <= (size_t)hulls;
 	const size_t end = here * (size_t)values;
-	ROLLED
-	for (size_t n = WORK_ITEM * LINE; n < end; n += WORK_ITEMS * LINE) {
-		FETCH_TO_WRITE(to + (size_t)first * (size_t)values + n);
-		if (next + BATTEN_LANES <= (size_t)hulls)
-			FETCH(from + next * (size_t)values + n);
-	}
+	return (pass_beside){ from + (whole ? next : (size_t)first) * (size_t)values,
+		                  to + (size_t)first * (size_t)values,
+		                  WORK_ITEM * LINE,
+		                  0,
+		                  end,
+		                  end / (size_t)max(time, 1) * WORK_ITEMS + 1 };
 }
 
 /* Tells of hulls that are none: looking at their numbers here costs no journey to memory. */
@@ -104,6 +125,7 @@ kernel void fairing_pass(int hulls, int state_size, global const int *shape,
 	global real *state = room + get_group_id(0) * (size_t)state_size;
 	const pass_program program = { shape,       operations, row_first,  row_target, term_index,
 		                           term_factor, line_first, point_from, point_to,   point_along };
+	const int time = pass_time(&program);
 	ROLLED
 	for (int first = (int)get_group_id(0) * BATTEN_LANES; first < hulls;
 	     first += (int)get_num_groups(0) * BATTEN_LANES) {
@@ -115,8 +137,8 @@ kernel void fairing_pass(int hulls, int state_size, global const int *shape,
 			state[values + c] = SPREAD(constants[c]);
 		WAIT;
 		refuse(shape, state, here, refused + first);
-		fetch(from, to, first, hulls, values);
-		pass_run(&program, state);
+		pass_beside beside = begin_fetch(from, to, first, hulls, values, time);
+		pass_run(&program, state, &beside);
 		give_back(state, values, here, to + begin);
 		WAIT;
 	}

@@ -29,7 +29,7 @@ static inline void run_either(const pass_program *program, scalar *state)
 	if (program->shape[PASS_SHAPE_STRETCHES])
 		run_stretches(program, state);
 	else
-		pass_run(program, state);
+		pass_run(program, state, NULL);
 }
 
 #if defined(__x86_64__)

@@ -7,13 +7,6 @@
 #include "shared/line_spline.h"
 #include "shared/pass_fit_quadratic.h"
 
-/* A pivot below this part of its diagonal is rounding: the points do not determine the vertices. */
-#if BATTEN_DOUBLE
-#define PASS_PIVOT LITERAL(1e-12)
-#else
-#define PASS_PIVOT LITERAL(1e-5)
-#endif
-
 SHARED_FUNCTION real pass_last_knot(const pass_line *l)
 {
 	return SPREAD((scalar)(l->vertices - l->order + 1));
@@ -172,25 +165,33 @@ SHARED_FUNCTION void pass_move_points(const pass_line *l, real lost, GLOBAL real
 	for (int i = 1; i + 1 < l->points; i++) {
 		const real fitted = pass_fitted(l, l->band, l->along[i]);
 		state[l->to[i]] = CHOOSE(lost > zero, state[l->from[i]], fitted);
+		PASS_BESIDE(l->beside, PASS_POINT_TIME);
 	}
+}
+
+/* The vertices by least squares, at any order. 1 where a pivot is lost. */
+SHARED_FUNCTION real pass_find_vertices(const pass_line *l, GLOBAL const real *state)
+{
+	ROLLED
+	for (int i = 0; i < l->vertices * (l->order + 2); i++)
+		l->band[i] = SPREAD(LITERAL(0.0)); /* x and y follow the band */
+	pass_add_points(l, state);
+	const real lost = pass_factor(l);
+	pass_solve(l, l->x);
+	pass_solve(l, l->y);
+	return lost;
 }
 
 SHARED_FUNCTION void pass_fit_line(const pass_line *l, GLOBAL real *state)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	const int end = l->points - 1;
 	const int quadratic = l->order == 3;
-	ROLLED
-	for (int i = 0; i < l->vertices * (l->order + 2); i++)
-		l->band[i] = zero; /* x and y follow the band */
+	real lost;
 	pass_find_parameters(l, state);
 	if (quadratic)
-		quadratic_add_points(l, state);
+		lost = quadratic_solve(l, state);
 	else
-		pass_add_points(l, state);
-	const real lost = pass_factor(l);
-	pass_solve(l, l->x);
-	pass_solve(l, l->y);
+		lost = pass_find_vertices(l, state);
 	l->x[0] = SPREAD(l->along[0]);
 	l->y[0] = state[l->from[0]];
 	l->x[l->vertices - 1] = SPREAD(l->along[end]);

@@ -1,5 +1,5 @@
-/* The course of a pass (pass_layout.h) that is not of stretches, the same source for the kernel and the C path. The includer
- * has dialect.h. */
+/* The course of a pass (pass_layout.h) that is not of stretches, the same source for the kernel and the C
+ * path. The includer has dialect.h. */
 #ifndef BATTEN_SHARED_PASS_RUN_H
 #define BATTEN_SHARED_PASS_RUN_H
 
@@ -40,10 +40,12 @@ SHARED_FUNCTION void pass_work_tile(const pass_program *p, int row, GLOBAL real 
 	state[p->row_target[row + 3]] = d;
 }
 
-SHARED_FUNCTION void pass_work_line(const pass_program *p, int line, GLOBAL real *state)
+SHARED_FUNCTION void pass_work_line(const pass_program *p, int line, GLOBAL real *state,
+                                    pass_beside *beside)
 {
 	const int first = p->line_first[line];
 	pass_line l;
+	l.beside = beside;
 	l.points = p->line_first[line + 1] - first;
 	l.order = p->shape[PASS_SHAPE_FIT_ORDER];
 	l.vertices = p->shape[PASS_SHAPE_VERTICES];
@@ -58,7 +60,8 @@ SHARED_FUNCTION void pass_work_line(const pass_program *p, int line, GLOBAL real
 	pass_fit_line(&l, state);
 }
 
-SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOBAL real *state)
+SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOBAL real *state,
+                                         pass_beside *beside)
 {
 	const int kind = p->operations[number * PASS_OPERATION_SIZE + PASS_KIND];
 	const int first = p->operations[number * PASS_OPERATION_SIZE + PASS_FIRST];
@@ -66,14 +69,18 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 	const real zero = SPREAD(LITERAL(0.0));
 	if (kind == PASS_ROWS) {
 		ROLLED
-		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS)
+		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS) {
 			pass_work_row(p, row, state);
+			PASS_BESIDE(beside, PASS_ROW_TIME);
+		}
 	} else if (kind == PASS_TILES || (kind == PASS_TILES_IN_ORDER && WORK_ITEM == 0)) {
 		const int items = kind == PASS_TILES ? WORK_ITEMS : 1;
 		ROLLED
 		for (int row = first + (items > 1 ? WORK_ITEM * PASS_TILE : 0); row < end;
-		     row += items * PASS_TILE)
+		     row += items * PASS_TILE) {
 			pass_work_tile(p, row, state);
+			PASS_BESIDE(beside, PASS_TILE_TIME);
+		}
 	} else if (kind == PASS_ADD) {
 		ROLLED
 		for (int row = first + WORK_ITEM; row < end; row += WORK_ITEMS)
@@ -85,7 +92,7 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 	} else if (kind == PASS_FIT) {
 		ROLLED
 		for (int line = first + WORK_ITEM; line < end; line += WORK_ITEMS)
-			pass_work_line(p, line, state);
+			pass_work_line(p, line, state, beside);
 	}
 }
 
@@ -104,7 +111,26 @@ SHARED_FUNCTION real pass_refused(GLOBAL const int *shape, GLOBAL const real *st
 	return one - sound;
 }
 
-SHARED_FUNCTION void pass_run(const pass_program *p, GLOBAL real *state)
+/* How long a pass takes, in parts of PASS_BESIDE. */
+SHARED_FUNCTION int pass_time(const pass_program *p)
+{
+	int time = 0;
+	ROLLED
+	for (int n = 0; n < p->shape[PASS_SHAPE_OPERATIONS]; n++) {
+		const int kind = p->operations[n * PASS_OPERATION_SIZE + PASS_KIND];
+		const int first = p->operations[n * PASS_OPERATION_SIZE + PASS_FIRST];
+		const int count = p->operations[n * PASS_OPERATION_SIZE + PASS_COUNT];
+		if (kind == PASS_ROWS)
+			time += count * PASS_ROW_TIME;
+		else if (kind == PASS_TILES || kind == PASS_TILES_IN_ORDER)
+			time += count / PASS_TILE * PASS_TILE_TIME;
+		else if (kind == PASS_FIT)
+			time += (p->line_first[first + count] - p->line_first[first]) * PASS_POINT_TIME;
+	}
+	return time * p->shape[PASS_SHAPE_ITERATIONS];
+}
+
+SHARED_FUNCTION void pass_run(const pass_program *p, GLOBAL real *state, pass_beside *beside)
 {
 	const int iterations = p->shape[PASS_SHAPE_ITERATIONS];
 	const int operations = p->shape[PASS_SHAPE_OPERATIONS];
@@ -112,7 +138,7 @@ SHARED_FUNCTION void pass_run(const pass_program *p, GLOBAL real *state)
 	for (int iteration = 0; iteration < iterations; iteration++) {
 		ROLLED
 		for (int n = 0; n < operations; n++) {
-			pass_work_operation(p, n, state);
+			pass_work_operation(p, n, state, beside);
 			WAIT;
 		}
 	}
