@@ -12,68 +12,9 @@
 #endif
 #define BATTEN_DIALECT_OPENCL
 #include "shared/dialect.h"
+#include "shared/grid_moves.h"
 #include "shared/grid_state.h"
 #include "shared/multilevel.h"
-
-typedef struct search_move {
-	int station, waterline; /* centre */
-	int width_x, width_z;
-	scalar inverse_x, inverse_z;
-	real step;
-} search_move;
-
-static inline real moved_node(const search_state *s, const search_move *move, int station,
-                              int waterline)
-{
-	const int node = node_of(s, station, waterline);
-	const scalar height = hat_height(station - move->station, move->inverse_x) *
-	                      hat_height(waterline - move->waterline, move->inverse_z);
-	/* Most nodes of a direction's stencils lie beside its hat. */
-	if (height == LITERAL(0.0))
-		return s->y[node];
-	return move_clamped(s->y[node], height * move->step, s->lower[node], s->upper[node]);
-}
-
-static inline node_row moved_row(const search_state *s, const search_move *move, int station,
-                                 int waterline)
-{
-	node_row row;
-	row.aft = moved_node(s, move, station - 1, waterline);
-	row.here = moved_node(s, move, station, waterline);
-	row.fore = moved_node(s, move, station + 1, waterline);
-	return row;
-}
-
-/* The objective over the nodes whose terms a direction can change, after a move along it. */
-static inline real move_objective(const search_state *s, const search_move *move)
-{
-	const int first_i = max(move->station - move->width_x, 0);
-	const int first_k = max(move->waterline - move->width_z, 0);
-	const int end_i = min(move->station + move->width_x, s->stations - 1);
-	const int end_k = min(move->waterline + move->width_z, s->waterlines - 1);
-	real sum = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int i = first_i; i <= end_i; i++) {
-		real column = SPREAD(LITERAL(0.0));
-		node_row below, here, above;
-		below.aft = below.here = below.fore = column;
-		here = below;
-		ROLLED
-		for (int k = first_k - 1; k <= end_k + 1; k++) {
-			above = moved_row(s, move, i, k);
-			if (k > first_k) {
-				const int node = node_of(s, i, k - 1);
-				column += node_objective(GRID_FAIRNESS, s->weights,
-				                         slopes_of(stencil_of(s, i, k - 1), below, here, above),
-				                         s->bend[node], s->close[node], here.here, s->target[node]);
-			}
-			below = here;
-			here = above;
-		}
-		sum += column;
-	}
-	return sum;
-}
 
 /* The level of a colour: all colours of the coarsest level first. */
 static inline global const int *level_of(const search_state *s, int colour)
@@ -97,22 +38,44 @@ static inline void move_begin(const search_state *s, int colour, int direction, 
 	move->width_z = level[SEARCH_LEVEL_WIDTH_Z];
 	move->inverse_x = LITERAL(1.0) / (scalar)level[SEARCH_LEVEL_WIDTH_X];
 	move->inverse_z = LITERAL(1.0) / (scalar)level[SEARCH_LEVEL_WIDTH_Z];
+	hat_keep(s, move);
+}
+
+static inline real move_objective(const search_state *s, const search_move *move)
+{
+	return hat_objective(s, move);
 }
 
 static inline void move_end(const search_state *s, const search_move *move)
 {
-	if (!ANY(move->step != SPREAD(LITERAL(0.0))))
-		return;
-	ROLLED
-	for (int k = move->waterline - move->width_z + 1; k < move->waterline + move->width_z; k++) {
-		ROLLED
-		for (int i = move->station - move->width_x + 1; i < move->station + move->width_x; i++)
-			if (k >= 0 && k < s->waterlines && i >= 0 && i < s->stations)
-				s->y[node_of(s, i, k)] = moved_node(s, move, i, k);
-	}
+	hat_place(s, move);
 }
 
 #include "shared/search_moves.h"
+
+/* An exploratory move along one direction. Returns the length of the step taken. */
+static inline real direction_explore(const search_state *s, int colour, int direction, real h,
+                                     real *extra)
+{
+	global const int *level = level_of(s, colour);
+	if (level[SEARCH_LEVEL_WIDTH_X] > 1 || level[SEARCH_LEVEL_WIDTH_Z] > 1) {
+		search_move move;
+		move_begin(s, colour, direction, &move);
+		return search_explore(s, &move, h, extra);
+	}
+	single_offset offset;
+	search_trial trial = search_trial_begin();
+	single_begin(s, s->centres[2 * direction], s->centres[2 * direction + 1], &offset);
+	ROLLED
+	for (int turn = 0; turn < 4; turn++)
+		if (!search_trial_next(&trial, turn, h, single_objective(s, &offset, trial.next), extra))
+			break;
+	const real step = search_trial_end(&trial);
+	single_end(s, &offset, step);
+	return CHOOSE(step < SPREAD(LITERAL(0.0)), -step, step);
+}
+
+#include "shared/search_sweep.h"
 
 /* Nothing is remembered from one pattern move to the next. */
 static inline void search_prepare(const search_state *s)

@@ -11,7 +11,7 @@ batten_status search_reference_create(const search_plan *plan, search_reference 
 	search_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, search_stencil_count(plan), size);
 	search.arrays = batten_allocate(plan->context, plan->node_count, SEARCH_ARRAY_COUNT * size);
-	/* The textbook search asks for most: three arrays of nodes and a number a waterline. */
+	/* Three arrays of nodes and a number a waterline. */
 	search.scratch = batten_allocate(plan->context, plan->node_count, 4 * size);
 	if (!search.stencils || !search.arrays || !search.scratch) {
 		search_reference_release(&search);

@@ -14,7 +14,7 @@ typedef struct reference_multilevel {
 	const int32_t *centres;
 } reference_multilevel;
 
-/* scratch has room for two arrays of nodes. */
+/* scratch has room for three arrays of nodes and a number a waterline. */
 void reference_multilevel_f64(const reference_multilevel *plan, const double *stencils,
                               double *arrays, const double *settings, double *outcome,
                               double *scratch);

@@ -5,7 +5,6 @@
 
 #include "reference/multilevel.h"
 
-/* scratch has room for three arrays of nodes and a number a waterline. */
 void reference_textbook_f64(const reference_multilevel *plan, const double *stencils,
                             double *arrays, const double *settings, double *outcome,
                             double *scratch);

@@ -49,20 +49,50 @@ SHARED_FUNCTION node_slopes slopes_of(node_stencil w, node_row below, node_row h
 	return s;
 }
 
-/* (k1^2 + k2^2) dS / (dx dz) with k1, k2 the principal curvatures: (4 H^2 - 2 K) times
- * sqrt(1 + y_x^2 + y_z^2), written with one division and one root. */
-SHARED_FUNCTION real bending_density(node_slopes s)
+/* What the fairness of a node takes of the slopes alone, and with them root and division. Plain bending has
+ * no skew and no first_inverse, the others no `across` and no twice_product. */
+typedef struct node_tangent {
+	real along, across; /* 1 + y_x^2, 1 + y_z^2 */
+	real square;        /* of the area element: 1 + y_x^2 + y_z^2 */
+	real inverse, root; /* 1 / square and its root */
+	real twice_product; /* 2 y_x y_z */
+	real first_inverse, skew;
+} node_tangent;
+
+SHARED_FUNCTION node_tangent tangent_of(int kind, real y_x, real y_z)
 {
 	const real one = SPREAD(LITERAL(1.0));
+	const real q2 = y_z * y_z;
+	node_tangent t;
+	t.along = one + y_x * y_x;
+	t.across = one + q2;
+	t.square = t.along + q2;
+	t.inverse = one / t.square;
+	t.root = SQUARE_ROOT(t.inverse);
+	t.twice_product = SPREAD(LITERAL(2.0)) * (y_x * y_z);
+	t.first_inverse = t.inverse;
+	t.skew = t.inverse;
+	if (kind == GRID_BENDING_WEIGHTED || kind == GRID_MEAN) {
+		t.first_inverse = one / t.along;
+		t.skew = (y_x * y_z) * t.first_inverse;
+	}
+	return t;
+}
+
+/* (k1^2 + k2^2) dS / (dx dz) with k1, k2 the principal curvatures: (4 H^2 - 2 K) times
+ * sqrt(1 + y_x^2 + y_z^2), written with one division and one root. */
+SHARED_FUNCTION real bending_of(node_tangent t, real y_xx, real y_xz, real y_zz)
+{
 	const real two = SPREAD(LITERAL(2.0));
-	const real p2 = s.y_x * s.y_x;
-	const real q2 = s.y_z * s.y_z;
-	const real inverse = one / ((one + p2) + q2);
-	const real mean = ((one + q2) * s.y_xx - (two * (s.y_x * s.y_z)) * s.y_xz) +
-	                  (one + p2) * s.y_zz;
-	const real gauss = s.y_xx * s.y_zz - s.y_xz * s.y_xz;
-	const real sum = (mean * mean) * inverse - two * gauss;
-	return (sum * inverse) * SQUARE_ROOT(inverse);
+	const real mean = (t.across * y_xx - t.twice_product * y_xz) + t.along * y_zz;
+	const real gauss = y_xx * y_zz - y_xz * y_xz;
+	const real sum = (mean * mean) * t.inverse - two * gauss;
+	return (sum * t.inverse) * t.root;
+}
+
+SHARED_FUNCTION real bending_density(node_slopes s)
+{
+	return bending_of(tangent_of(GRID_BENDING, s.y_x, s.y_z), s.y_xx, s.y_xz, s.y_zz);
 }
 
 /* Longitudinal curvature, of the section along the tangent of the waterline, and transverse
@@ -76,48 +106,62 @@ typedef struct grid_weights {
 /* A fairness other than plain bending, times dS / (dx dz). With E = 1 + y_x^2, W^2 = E + y_z^2 and
  * f = y_x y_z / E the operator has the entries y_xx / (E W), (y_xz - f y_xx) / W^2 and
  * (y_zz - 2 f y_xz + f^2 y_xx) E / W^3. */
-SHARED_FUNCTION real weighted_density(int kind, grid_weights w, node_slopes s)
+SHARED_FUNCTION real weighted_of(int kind, grid_weights w, node_tangent t, real y_xx, real y_xz,
+                                 real y_zz)
 {
-	const real one = SPREAD(LITERAL(1.0));
 	const real two = SPREAD(LITERAL(2.0));
-	const real first = one + s.y_x * s.y_x;
-	const real square = first + s.y_z * s.y_z;
-	const real inverse = one / square;
 	const real both = w.along * w.across;
 	if (kind == GRID_GAUSS) {
-		const real gauss = ((s.y_xx * s.y_zz - s.y_xz * s.y_xz) * both) * inverse;
-		return SQUARE_ROOT((gauss * gauss) * inverse + w.blunt * square);
+		const real gauss = ((y_xx * y_zz - y_xz * y_xz) * both) * t.inverse;
+		return SQUARE_ROOT((gauss * gauss) * t.inverse + w.blunt * t.square);
 	}
-	const real first_inverse = one / first;
-	const real skew = (s.y_x * s.y_z) * first_inverse;
-	const real twist = s.y_xz - skew * s.y_xx;
-	const real turned = (s.y_zz - skew * s.y_xz) - skew * twist;
-	const real along = w.along * (s.y_xx * first_inverse);
-	const real across = w.across * (turned * (first * inverse));
-	const real root = SQUARE_ROOT(inverse);
+	const real twist = y_xz - t.skew * y_xx;
+	const real turned = (y_zz - t.skew * y_xz) - t.skew * twist;
+	const real along = w.along * (y_xx * t.first_inverse);
+	const real across = w.across * (turned * (t.along * t.inverse));
 	if (kind == GRID_MEAN) {
 		const real sum = along + across;
-		return (SPREAD(LITERAL(0.25)) * (sum * sum)) * root;
+		return (SPREAD(LITERAL(0.25)) * (sum * sum)) * t.root;
 	}
-	return ((along * along + across * across) + ((two * both) * (twist * twist)) * inverse) * root;
+	return ((along * along + across * across) + ((two * both) * (twist * twist)) * t.inverse) *
+	       t.root;
 }
 
 /* The fairness of a kind (search_layout.h), times dS / (dx dz). kind is a constant in OpenCL, so that
  * only one of them is compiled. */
-SHARED_FUNCTION real node_fairness(int kind, grid_weights w, node_slopes s)
+SHARED_FUNCTION real fairness_of(int kind, grid_weights w, node_tangent t, real y_xx, real y_xz,
+                                 real y_zz)
 {
-	return kind == GRID_BENDING ? bending_density(s) : weighted_density(kind, w, s);
+	return kind == GRID_BENDING ? bending_of(t, y_xx, y_xz, y_zz)
+	                            : weighted_of(kind, w, t, y_xx, y_xz, y_zz);
 }
 
-/* One node's part of the objective. bend = w1 dx dz where the node's 3 x 3 neighbours are all on the
- * hull, else 0: what lies beyond the hull's edge then never counts, whatever it is. */
+SHARED_FUNCTION real node_fairness(int kind, grid_weights w, node_slopes s)
+{
+	return fairness_of(kind, w, tangent_of(kind, s.y_x, s.y_z), s.y_xx, s.y_xz, s.y_zz);
+}
+
+/* A node's part of the objective for its fairness. bend = w1 dx dz where the node's 3 x 3 neighbours are
+ * all on the hull, else 0: what lies beyond the hull's edge then never counts, whatever it is. */
+SHARED_FUNCTION real node_energy(real bend, real fairness)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real energy = bend * fairness;
+	return CHOOSE(bend > zero, energy, zero);
+}
+
+/* That for its closeness. */
+SHARED_FUNCTION real node_closeness(real close, real y, real target)
+{
+	const real off = y - target;
+	return close * (off * off);
+}
+
+/* One node's part of the objective. */
 SHARED_FUNCTION real node_objective(int kind, grid_weights w, node_slopes s, real bend, real close,
                                     real y, real target)
 {
-	const real zero = SPREAD(LITERAL(0.0));
-	const real off = y - target;
-	const real energy = bend * node_fairness(kind, w, s);
-	return CHOOSE(bend > zero, energy, zero) + close * (off * off);
+	return node_energy(bend, node_fairness(kind, w, s)) + node_closeness(close, y, target);
 }
 
 #endif

@@ -258,4 +258,15 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 	return sum;
 }
 
+/* Moves call the objective. */
+#include "search_moves.h"
+
+SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int direction, real h,
+                                       real *extra)
+{
+	search_move move;
+	move_begin(s, colour, direction, &move);
+	return search_explore(s, &move, h, extra);
+}
+
 #endif

@@ -1,7 +1,7 @@
 /* The course of a multilevel pattern search (Hooke and Jeeves; thesis 7.2): exploratory moves along
  * every direction, a pattern move, steps that halve.
  *
- * Defined before this is included, beside what search_moves.h asks for:
+ * Defined before this is included, beside what search_sweep.h asks for:
  *   void search_prepare(const search_state *)
  *                      what pattern moves need before the first
  *   void search_pattern(const search_state *, mask going, int turn, search_progress *)
@@ -10,7 +10,7 @@
 #ifndef BATTEN_SHARED_SEARCH_DRIVER_H
 #define BATTEN_SHARED_SEARCH_DRIVER_H
 
-#include "search_moves.h"
+#include "search_sweep.h"
 
 /* The wide levels of an iteration, for the lanes whose turn it is; p->wide is the objective after them.
  * Returns the longest step this work-item took. */

@@ -1,22 +1,13 @@
-/* Exploratory moves of a multilevel pattern search (Hooke and Jeeves; thesis 7.2) along every direction.
- * The objective is the includer's. Several searches run side by side, one a lane; in OpenCL the
- * work-items of a group share the directions of a colour.
+/* An exploratory move of a multilevel pattern search (Hooke and Jeeves; thesis 7.2) along one direction. The
+ * objective is the includer's.
  *
  * Defined before this is included:
- *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
- *                      colour_count; wide_colours, those of them, the first, that wait for their turn
- *                      (multilevel.h), and wide_probes, a real, two for each of their directions;
- *                      whatever the objective needs
+ *   search_state       whatever the objective needs
  *   search_move        step: real; whatever tells one direction from another
- *   void move_begin(const search_state *, int colour, int direction, search_move *)
  *   real move_objective(const search_state *, const search_move *)
  *                      the terms the direction can change, after move->step along it
  *   void move_end(const search_state *, const search_move *)
- *                      y after move->step for good; 0 leaves y as it was
- *   void colour_range(const search_state *, int colour, int *first, int *end)
- *                      directions of a colour, colours in the order they are worked
- *   real whole_objective(const search_state *)
- *                      at trial, the same in every work-item */
+ *                      y after move->step for good; 0 leaves y as it was before the first probe */
 #ifndef BATTEN_SHARED_SEARCH_MOVES_H
 #define BATTEN_SHARED_SEARCH_MOVES_H
 
@@ -24,86 +15,66 @@
 #include "multilevel.h"
 #include "search_progress.h"
 
-/* Exploratory move along one direction: +h, -h and the bottom of the parabola through them; the best
- * is taken where it is a gain. One call of the objective in a loop: PoCL compiles each call anew.
- * Returns the length of the step taken. */
-SHARED_FUNCTION real search_explore(const search_state *s, search_move *move, real h, real *extra)
+/* What the probes of one direction have come to. */
+typedef struct search_trial {
+	real before, plus, change, step;
+	real next; /* the step to probe */
+} search_trial;
+
+SHARED_FUNCTION search_trial search_trial_begin(void)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	real before = zero;
-	real plus = zero;
-	real change = zero;
-	real step = zero;
-	move->step = zero;
+	const search_trial trial = { zero, zero, zero, zero, zero };
+	return trial;
+}
+
+/* Takes the objective at trial->next: 0 in turn 0, then +h, -h and the bottom of the parabola through them.
+ * Returns whether there is another turn. One call of the objective in a loop: PoCL compiles each call anew. */
+SHARED_FUNCTION int search_trial_next(search_trial *t, int turn, real h, real sum, real *extra)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real found = sum - t->before;
+	if (turn == 0) {
+		t->before = sum;
+		t->next = h;
+	} else if (turn == 1) {
+		t->plus = found;
+		t->change = found;
+		t->step = h;
+		t->next = -h;
+	} else {
+		const mask better = (t->next != zero) & (found < t->change);
+		t->change = CHOOSE(better, found, t->change);
+		t->step = CHOOSE(better, t->next, t->step);
+	}
+	if (turn != 2)
+		return turn < 3;
+	t->next = parabola_step(h, t->plus, found);
+	const mask tried = t->next != zero;
+	*extra += CHOOSE(tried, SPREAD(LITERAL(1.0)), zero);
+	return ANY(tried);
+}
+
+/* The step to take: the best probed where it is a gain, else 0. */
+SHARED_FUNCTION real search_trial_end(const search_trial *t)
+{
+	const mask gain = t->change < -(SPREAD(GAIN_FLOOR) * t->before);
+	return CHOOSE(gain, t->step, SPREAD(LITERAL(0.0)));
+}
+
+/* Exploratory move along one direction. Returns the length of the step taken. */
+SHARED_FUNCTION real search_explore(const search_state *s, search_move *move, real h, real *extra)
+{
+	search_trial trial = search_trial_begin();
 	ROLLED
 	for (int turn = 0; turn < 4; turn++) {
-		const real sum = move_objective(s, move);
-		const real found = sum - before;
-		if (turn == 0) {
-			before = sum;
-			move->step = h;
-		} else if (turn == 1) {
-			plus = found;
-			change = found;
-			step = h;
-			move->step = -h;
-		} else if (turn == 2) {
-			const mask better = found < change;
-			change = CHOOSE(better, found, change);
-			step = CHOOSE(better, -h, step);
-			move->step = parabola_step(h, plus, found);
-			const mask tried = move->step != zero;
-			*extra += CHOOSE(tried, SPREAD(LITERAL(1.0)), zero);
-			if (!ANY(tried))
-				break;
-		} else {
-			const mask better = (move->step != zero) & (found < change);
-			change = CHOOSE(better, found, change);
-			step = CHOOSE(better, move->step, step);
-		}
+		move->step = trial.next;
+		if (!search_trial_next(&trial, turn, h, move_objective(s, move), extra))
+			break;
 	}
-	const mask gain = change < -(SPREAD(GAIN_FLOOR) * before);
-	move->step = CHOOSE(gain, step, zero);
+	move->step = search_trial_end(&trial);
 	move_end(s, move);
-	return CHOOSE(move->step < zero, -move->step, move->step);
-}
-
-/* The directions of some colours. Returns the longest step this work-item took. */
-SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int end_colour, real h,
-                                  real *extra)
-{
-	real longest = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int colour = first_colour; colour < end_colour; colour++) {
-		int first = 0;
-		int end = 0;
-		colour_range(s, colour, &first, &end);
-		ROLLED
-		for (int d = first + WORK_ITEM; d < end; d += WORK_ITEMS) {
-			search_move move;
-			move_begin(s, colour, d, &move);
-			const real length = search_explore(s, &move, h, extra);
-			longest = CHOOSE(length > longest, length, longest);
-		}
-		WAIT;
-	}
-	return longest;
-}
-
-/* The longest step and the number of probes of all work-items: a maximum and a sum of whole numbers,
- * so their order does not matter. gathered has two values a work-item. */
-SHARED_FUNCTION void search_gather(LOCAL real *gathered, real *longest, real *extra)
-{
-	gathered[WORK_ITEM] = *longest;
-	gathered[WORK_ITEMS + WORK_ITEM] = *extra;
-	WAIT;
-	*extra = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int w = 0; w < WORK_ITEMS; w++) {
-		*longest = CHOOSE(gathered[w] > *longest, gathered[w], *longest);
-		*extra += gathered[WORK_ITEMS + w];
-	}
-	WAIT;
+	return CHOOSE(move->step < SPREAD(LITERAL(0.0)), -move->step, move->step);
 }
 
 #endif

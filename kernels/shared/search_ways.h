@@ -1,10 +1,11 @@
 /* The pattern move with a memory: a parabola is probed over this iteration's way and the ways of the
  * iterations before, and the search goes on from its bottom. What search_driver.h asks for; beyond that of
- * search_moves.h, search_state has ways: STATE real *, SEARCH_WAYS - 1 arrays of nodes. */
+ * search_sweep.h, search_state has ways: STATE real *, SEARCH_WAYS - 1 arrays of nodes. */
 #ifndef BATTEN_SHARED_SEARCH_WAYS_H
 #define BATTEN_SHARED_SEARCH_WAYS_H
 
-#include "search_moves.h"
+#include "multilevel.h"
+#include "search_progress.h"
 
 /* A pattern move: its objective at y, two probes a way and one for every two, the bottom of the
  * parabola, and on from there. */

@@ -1,0 +1,57 @@
+/* Sweeps of a multilevel pattern search (Hooke and Jeeves; thesis 7.2) over its directions. Several searches
+ * run side by side, one a lane; in OpenCL the work-items of a group share the directions of a colour.
+ *
+ * Defined before this is included:
+ *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
+ *                      colour_count; wide_colours, those of them, the first, that wait for their turn
+ *                      (multilevel.h), and wide_probes, a real, two for each of their directions
+ *   real direction_explore(const search_state *, int colour, int direction, real h, real *extra)
+ *                      an exploratory move along a direction, its parabola's bottom counted in extra;
+ *                      returns the length of the step taken
+ *   void colour_range(const search_state *, int colour, int *first, int *end)
+ *                      directions of a colour, colours in the order they are worked
+ *   real whole_objective(const search_state *)
+ *                      at trial, the same in every work-item */
+#ifndef BATTEN_SHARED_SEARCH_SWEEP_H
+#define BATTEN_SHARED_SEARCH_SWEEP_H
+
+#include "dialect.h"
+#include "search_moves.h"
+
+/* The directions of some colours. Returns the longest step this work-item took. */
+SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int end_colour, real h,
+                                  real *extra)
+{
+	real longest = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int colour = first_colour; colour < end_colour; colour++) {
+		int first = 0;
+		int end = 0;
+		colour_range(s, colour, &first, &end);
+		ROLLED
+		for (int d = first + WORK_ITEM; d < end; d += WORK_ITEMS) {
+			const real length = direction_explore(s, colour, d, h, extra);
+			longest = CHOOSE(length > longest, length, longest);
+		}
+		WAIT;
+	}
+	return longest;
+}
+
+/* The longest step and the number of probes of all work-items: a maximum and a sum of whole numbers,
+ * so their order does not matter. gathered has two values a work-item. */
+SHARED_FUNCTION void search_gather(LOCAL real *gathered, real *longest, real *extra)
+{
+	gathered[WORK_ITEM] = *longest;
+	gathered[WORK_ITEMS + WORK_ITEM] = *extra;
+	WAIT;
+	*extra = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int w = 0; w < WORK_ITEMS; w++) {
+		*longest = CHOOSE(gathered[w] > *longest, gathered[w], *longest);
+		*extra += gathered[WORK_ITEMS + w];
+	}
+	WAIT;
+}
+
+#endif
