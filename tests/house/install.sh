@@ -78,7 +78,7 @@ check()
 "$cmake" --install "$build" --prefix "$folder/static" >/dev/null
 check static
 "$cmake" -S "$repository" -B "$folder/shared-build" -G "$generator" -DCMAKE_C_COMPILER="$compiler" \
-	-DCMAKE_BUILD_TYPE=Debug -DBUILD_SHARED_LIBS=ON -DBATTEN_REPORT=OFF \
+	-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-O0 -w" -DBUILD_SHARED_LIBS=ON -DBATTEN_REPORT=OFF \
 	-DBATTEN_OPENCASCADE=OFF >/dev/null
 "$cmake" --build "$folder/shared-build" >/dev/null
 "$cmake" --install "$folder/shared-build" --prefix "$folder/shared" >/dev/null
