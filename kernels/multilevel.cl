@@ -6,7 +6,8 @@
  * shape does not change a bit of the result; host/reference/multilevel_body.h is the same in plain C.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for grids whose state
- * does not fit local memory), GRID_FAIRNESS (search_layout.h), plain bending where it is not. */
+ * does not fit local memory), GRID_FAIRNESS (search_layout.h), plain bending where it is not, and
+ * GRID_PENALTY (grid_state.h). */
 #if !defined(GRID_FAIRNESS)
 #define GRID_FAIRNESS GRID_BENDING
 #endif
@@ -88,8 +89,8 @@ static inline void extrapolate(const search_state *s, real factor)
 {
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->trial[n] = move_clamped(s->y[n], factor * (s->y[n] - s->base[n]), s->lower[n],
-		                           s->upper[n]);
+		s->trial[n] = step_from(s, s->y[n], factor * (s->y[n] - s->base[n]), s->lower[n],
+		                        s->upper[n]);
 	WAIT;
 }
 

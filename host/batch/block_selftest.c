@@ -11,13 +11,13 @@ static batten_status run_block(void *engine, const search_plan *plan,
 	return block_engine_run(engine, plan, problems, which, count, y_m, results, NULL);
 }
 
-static batten_status run_known(const search_plan *plan, const batten_search_problem *problem,
-                               double *y_m, batten_search_result *result)
+static batten_status run_known(const search_plan *plan, const batten_search_problem *problems,
+                               size_t which, double *y_m, batten_search_result *result)
 {
 	block_reference reference = { 0 };
 	const batten_status status = block_reference_create(plan, &reference);
 	if (status == BATTEN_OK)
-		block_reference_run(&reference, problem, y_m, result);
+		block_reference_run(&reference, &problems[which], y_m, result);
 	block_reference_release(&reference);
 	return status;
 }

@@ -10,11 +10,17 @@
 
 static const size_t none = SIZE_MAX;
 
-batten_status certifier_create(const search_plan *plan, batten_precision precision, certifier *out)
+/* Part of its box's width within which an interior penalty leaves an offset that its bound holds. */
+#define INSIDE 1e-3
+
+batten_status certifier_create(const search_plan *plan, batten_precision precision,
+                               bool interior_penalty, certifier *out)
 {
 	batten_context *context = plan->context;
 	/* f32 rounds a bound, and so leaves an offset that far from it. */
-	certifier c = { .plan = plan, .rounding = precision == BATTEN_F32 ? 0x1p-22 : 0.0 };
+	certifier c = { .plan = plan,
+		            .rounding = precision == BATTEN_F32 ? 0x1p-22 : 0.0,
+		            .inside = interior_penalty ? INSIDE : 0.0 };
 	const size_t nodes = plan->node_count;
 	c.arrays = batten_allocate(context, nodes, SEARCH_ARRAY_COUNT * sizeof(double));
 	c.gradient = batten_allocate(context, nodes, sizeof(double));
@@ -108,7 +114,8 @@ static double differentiate(certifier *c, double *fairness)
 }
 
 /* Numbers the nodes that are free: not fixed, and not held at a bound by the gradient. last: what those
- * held still gain by the slope on their last way to the bound, the rounding of f32. */
+ * held still gain by the slope on their last way to the bound, the rounding of f32 or what an interior
+ * penalty leaves. */
 static size_t number_unknowns(certifier *c, double *last)
 {
 	const double *y = array_of(c, SEARCH_ARRAY_Y);
@@ -121,7 +128,7 @@ static size_t number_unknowns(certifier *c, double *last)
 	}
 	for (size_t o = 0; o < c->plan->station_count * c->plan->waterline_count; o++) {
 		const size_t n = c->order[o];
-		const double near = c->rounding * fabs(y[n]);
+		const double near = c->rounding * fabs(y[n]) + c->inside * (upper[n] - lower[n]);
 		const bool down = y[n] <= lower[n] + near && c->gradient[n] >= 0.0;
 		const bool up = y[n] >= upper[n] - near && c->gradient[n] <= 0.0;
 		if (!(lower[n] < upper[n]))
@@ -226,18 +233,31 @@ static batten_status estimate(certifier *c, double last, batten_certificate *out
 	return status;
 }
 
+static void pack_end(certifier *c, const double *y_m)
+{
+	batten_search_problem ended = *c->problem;
+	double settings[SEARCH_SETTING_COUNT];
+	ended.start_m = y_m;
+	memset(c->arrays, 0, c->plan->node_count * SEARCH_ARRAY_COUNT * sizeof *c->arrays);
+	search_pack(c->plan, &ended, 0, 0, 1, c->arrays, settings);
+}
+
+double certifier_objective(certifier *c, const batten_search_problem *problem, const double *y_m)
+{
+	double fairness = 0.0;
+	c->problem = problem;
+	pack_end(c, y_m);
+	return differentiate(c, &fairness);
+}
+
 static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	certifier *c = (certifier *)of;
 	const search_plan *plan = c->plan;
-	batten_search_problem ended = *c->problem;
-	double settings[SEARCH_SETTING_COUNT];
-	ended.start_m = y_m;
 	*out = (batten_certificate){ .gap_estimate = NAN };
-	memset(c->arrays, 0, plan->node_count * SEARCH_ARRAY_COUNT * sizeof *c->arrays);
-	search_pack(plan, &ended, 0, 1, c->arrays, settings);
+	pack_end(c, y_m);
 	out->objective = differentiate(c, &out->fairness);
-	out->fairness = ended.w1 > 0.0 ? out->fairness / ended.w1 : NAN;
+	out->fairness = c->problem->w1 > 0.0 ? out->fairness / c->problem->w1 : NAN;
 	double last = 0.0;
 	out->free_count = number_unknowns(c, &last);
 	double square = 0.0;

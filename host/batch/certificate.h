@@ -10,6 +10,7 @@ typedef struct certifier {
 	const search_plan *plan; /* in f64 */
 	const batten_search_problem *problem;
 	double rounding;  /* an offset this part of its amount from a bound is at it */
+	double inside;    /* and one this part of its box's width */
 	double *arrays;   /* SEARCH_ARRAY_COUNT * node_count, as search_pack.h lays them out */
 	double *gradient; /* a number a node */
 	size_t *number;   /* of the unknown at a node, SIZE_MAX where there is none */
@@ -17,9 +18,13 @@ typedef struct certifier {
 	double *step;     /* a node: y less this is the minimum of the parabola */
 } certifier;
 
-/* precision: of the search. Errors: MEMORY. */
-batten_status certifier_create(const search_plan *plan, batten_precision precision, certifier *out);
+/* Of searches in a precision, with an interior penalty or not. Errors: MEMORY. */
+batten_status certifier_create(const search_plan *plan, batten_precision precision,
+                               bool interior_penalty, certifier *out);
 void certifier_release(certifier *c);
+
+/* The objective at y_m of the problem, which is sound. */
+double certifier_objective(certifier *c, const batten_search_problem *problem, const double *y_m);
 
 /* y_m: of the problem, which is sound. Errors: MEMORY. */
 batten_status certifier_run(certifier *c, const batten_search_problem *problem, const double *y_m,

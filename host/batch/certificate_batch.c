@@ -9,6 +9,7 @@ typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
 	search_plan *plan;
 	batten_precision precision; /* of the searches */
+	bool interior_penalty;
 	const batten_search_problem *problems;
 	const double *y_m;
 	double gap, *polished_m; /* polished_m: y_m, to be polished to gap, or NULL */
@@ -20,7 +21,7 @@ static batten_status run_on_reference(batch_work *work)
 	const batch *b = (const batch *)work;
 	const size_t nodes = b->plan->station_count * b->plan->waterline_count;
 	certifier c = { 0 };
-	batten_status status = certifier_create(b->plan, b->precision, &c);
+	batten_status status = certifier_create(b->plan, b->precision, b->interior_penalty, &c);
 	size_t which = 0;
 	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
 		status = b->polished_m
@@ -90,6 +91,11 @@ static batten_status judge(batten_context *context, const batten_grid *grid, siz
 		                    .device = BATTEN_DEVICE_REFERENCE,
 		                    .run_reference = run_on_reference };
 	b->precision = chosen.precision;
+	b->interior_penalty = chosen.interior_penalty;
+	if (status == BATTEN_OK && b->polished_m && b->interior_penalty)
+		status = batten_fail(context, BATTEN_USAGE,
+		                     "searches with an interior penalty end inside their boxes: none is "
+		                     "polished, by steps that end at bounds");
 	chosen.precision = BATTEN_F64;
 	if (status == BATTEN_OK)
 		status = search_plan_create(context, grid, count, b->problems, &chosen, &b->plan);

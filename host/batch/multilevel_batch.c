@@ -44,7 +44,7 @@ static batten_status run_on_reference(batch_work *work)
 	batten_status status = search_reference_create(b->plan, &reference);
 	size_t which = 0;
 	while (status == BATTEN_OK && work_queue_take(&work->queue, 1, &which) == 1)
-		search_reference_run(&reference, &b->call->problems[which],
+		search_reference_run(&reference, b->call->problems, which,
 		                     b->call->y_m +
 		                         which * b->plan->station_count * b->plan->waterline_count,
 		                     &b->call->results[which]);
@@ -75,6 +75,8 @@ batten_status multilevel_batch_run(const search_call *call, batten_run *run)
 		        .call = call };
 	batten_status status = search_plan_create(call->context, call->grid, call->count,
 	                                          call->problems, call->options, &b.plan);
+	if (status == BATTEN_OK)
+		b.plan->penalties = call->penalties;
 	if (status == BATTEN_OK && call->count > 0)
 		status = search_batch_work(call, b.plan, &b.work, run);
 	if (status == BATTEN_OK && call->count > 0 &&

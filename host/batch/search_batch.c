@@ -19,7 +19,8 @@ static batten_status choose(batten_context *context, batten_search_options *opti
 	const bool plain = options->fairness == BATTEN_FAIRNESS_BENDING &&
 	                   options->longitudinal_weight == 1.0 && options->transverse_weight == 1.0;
 	if (options->algorithm == BATTEN_ALGORITHM_AUTO)
-		options->algorithm = plain ? BATTEN_ALGORITHM_BLOCK : BATTEN_ALGORITHM_MULTILEVEL;
+		options->algorithm = plain && !options->interior_penalty ? BATTEN_ALGORITHM_BLOCK
+		                                                         : BATTEN_ALGORITHM_MULTILEVEL;
 	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
 	if (!*run)
 		return batten_fail(context, BATTEN_USAGE,
@@ -29,6 +30,14 @@ static batten_status choose(batten_context *context, batten_search_options *opti
 		return batten_fail(context, BATTEN_USAGE,
 		                   "the block search knows bending with weights 1 and 1 only: multilevel "
 		                   "or auto is expected");
+	if (options->interior_penalty && options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)
+		return batten_fail(
+			context, BATTEN_USAGE,
+			"the %s search keeps the box by moves that end at it: multilevel or auto is "
+			"expected with an interior penalty",
+			batten_search_algorithm_text(options->algorithm));
+	if (options->interior_penalty)
+		*run = penalty_batch_run;
 	return BATTEN_OK;
 }
 
@@ -83,7 +92,13 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 		status = choose(context, &chosen, &algorithm);
 	if (status != BATTEN_OK)
 		return status;
-	const search_call call = { context, grid, count, problems, &chosen, y_m, results };
+	const search_call call = { .context = context,
+		                       .grid = grid,
+		                       .count = count,
+		                       .problems = problems,
+		                       .options = &chosen,
+		                       .y_m = y_m,
+		                       .results = results };
 	status = algorithm(&call, &told);
 	if (status != BATTEN_OK)
 		return status;

@@ -14,12 +14,17 @@ typedef struct search_call {
 	const batten_search_options *options; /* checked; of the algorithm that is to run */
 	double *y_m;                          /* [count][waterlines][stations] */
 	batten_search_result *results;        /* [count] */
+	const double *penalties;              /* [count] as in search_plan, or NULL */
 } search_call;
 
 /* Of the textbook search too. Runs the batch: every result is set, but for its algorithm, or an error returned. run is told what
  * ran. Errors: USAGE, DEVICE, KERNEL, MEMORY. */
 batten_status multilevel_batch_run(const search_call *call, batten_run *run);
 batten_status block_batch_run(const search_call *call, batten_run *run);
+
+/* The multilevel search with an interior penalty: r falls from round to round until the penalty is no
+ * matter. Objectives of the results are those without it. Else as above. */
+batten_status penalty_batch_run(const search_call *call, batten_run *run);
 
 /* What every algorithm does with a plan: refuses what cannot be searched, queues the rest by w2/w1 and
  * works the queue off. Errors: those of batch_work_run(). */

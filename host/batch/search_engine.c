@@ -23,7 +23,8 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 		                   .lanes = plan->options.lanes,
 		                   .work_group = plan->options.work_group,
 		                   .fairness = plan->fairness,
-		                   .textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK };
+		                   .textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK,
+		                   .penalised = plan->penalties != NULL };
 	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
 	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
 	const size_t state = (3 * plan->node_count + plan->waterline_count + 2 * shape.work_group) *
@@ -57,8 +58,9 @@ batten_status search_engine_open(batten_context *context, const search_shape *sh
 		                           .precision = shape->precision,
 		                           .lanes = shape->lanes,
 		                           .work_group = shape->work_group };
-	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DGRID_FAIRNESS=%d",
-	               batch_engine_state_option(shape->global_state), shape->fairness);
+	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DGRID_FAIRNESS=%d%s",
+	               batch_engine_state_option(shape->global_state), shape->fairness,
+	               shape->penalised ? " -DGRID_PENALTY=1" : "");
 	search_engine *made = (search_engine *)batch_engine_find(context, &recipe);
 	batten_status status = BATTEN_OK;
 	if (!made) {
@@ -192,7 +194,7 @@ batten_status search_engine_run(search_engine *engine, const search_plan *plan,
 	if (status == BATTEN_OK) {
 		search_pack_stencils(plan, b.stencils);
 		for (size_t i = 0; i < count; i++)
-			search_pack(plan, &problems[which[i]], i % lanes, lanes,
+			search_pack(plan, problems, which[i], i % lanes, lanes,
 			            (char *)b.arrays + i / lanes * b.arrays_size,
 			            (char *)b.settings + i / lanes * b.settings_size);
 		status = block_upload(engine, plan, &b);

@@ -13,6 +13,7 @@ typedef struct search_shape {
 	bool global_state; /* the grid's state does not fit the device's local memory */
 	int fairness;      /* GRID_BENDING ... */
 	bool textbook;     /* that kernel, else multilevel */
+	bool penalised;    /* its objective has an interior penalty */
 } search_shape;
 
 typedef struct search_engine search_engine;

@@ -76,6 +76,19 @@ static double start_of(const batten_search_problem *problem, size_t node)
 	return clamp(problem->start_m[node], problem->lower_m[node], problem->upper_m[node]);
 }
 
+bool search_box_inside(batten_precision precision, double *lower, double *upper)
+{
+	double middle = *lower + 0.5 * (*upper - *lower);
+	if (precision == BATTEN_F32) {
+		const float down = (float)*lower;
+		const float up = (float)*upper;
+		*lower = (double)((double)down < *lower ? nextafterf(down, INFINITY) : down);
+		*upper = (double)((double)up > *upper ? nextafterf(up, -INFINITY) : up);
+		middle = (double)(float)middle;
+	}
+	return middle > *lower && middle < *upper;
+}
+
 static void pack_node(const search_plan *plan, const batten_search_problem *problem, size_t i,
                       size_t k, size_t lane, size_t lanes, void *arrays)
 {
@@ -86,9 +99,12 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 	const double cell = plan->cell_x[i] * plan->cell_z[k];
 	const double h2 = problem->half_beam_m * problem->half_beam_m;
 	const double weight = problem->closeness_weight ? problem->closeness_weight[node] : 1.0;
-	const double lower = problem->lower_m[node];
-	const double upper = problem->upper_m[node];
-	put(plan, arrays, SEARCH_ARRAY_Y * array + at, start_of(problem, node));
+	const double start = start_of(problem, node);
+	double lower = problem->lower_m[node];
+	double upper = problem->upper_m[node];
+	if (plan->penalties && !search_box_inside(plan->options.precision, &lower, &upper))
+		lower = upper = start;
+	put(plan, arrays, SEARCH_ARRAY_Y * array + at, start);
 	put(plan, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
 	put(plan, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
 	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
@@ -97,9 +113,10 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 		put(plan, arrays, SEARCH_ARRAY_BEND * array + at, problem->w1 * cell);
 }
 
-void search_pack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
-                 size_t lanes, void *arrays, void *settings)
+void search_pack(const search_plan *plan, const batten_search_problem *problems, size_t which,
+                 size_t lane, size_t lanes, void *arrays, void *settings)
 {
+	const batten_search_problem *problem = &problems[which];
 	for (size_t k = 0; k < plan->waterline_count; k++)
 		for (size_t i = 0; i < plan->station_count; i++)
 			if (on_hull(problem, k * plan->station_count + i))
@@ -118,6 +135,8 @@ void search_pack(const search_plan *plan, const batten_search_problem *problem, 
 	const int narrow = plan->level_count - search_plan_wide_levels(plan);
 	put(plan, settings, SEARCH_SETTING_WIDE_PROBES * lanes + lane,
 	    2.0 * (double)search_problem_directions(plan, problem, narrow, plan->level_count));
+	put(plan, settings, SEARCH_SETTING_PENALTY * lanes + lane,
+	    plan->penalties ? plan->penalties[which] : 0.0);
 }
 
 double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,

@@ -16,10 +16,14 @@ void search_pack_stencils(const search_plan *plan, void *stencils);
 double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,
                           size_t node, double found);
 
-/* Writes a problem into lane `lane` of arrays[SEARCH_ARRAY_COUNT][node_count][lanes] and
+/* A box as a search with an interior penalty takes it: its bounds rounded inwards, so that what is inside
+ * in f32 is inside in f64. false: no number of the precision is inside, and the node is held. */
+bool search_box_inside(batten_precision precision, double *lower, double *upper);
+
+/* Writes number `which` of the plan's problems into lane `lane` of arrays[SEARCH_ARRAY_COUNT][node_count][lanes] and
  * settings[SEARCH_SETTING_COUNT][lanes], all zero before. A lane left at zero is idle. */
-void search_pack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
-                 size_t lanes, void *arrays, void *settings);
+void search_pack(const search_plan *plan, const batten_search_problem *problems, size_t which,
+                 size_t lane, size_t lanes, void *arrays, void *settings);
 
 /* Takes a lane's end: y_m of the nodes on the hull (the others get the start) and the result. */
 void search_unpack(const search_plan *plan, const batten_search_problem *problem, size_t lane,

@@ -31,6 +31,7 @@ typedef struct search_plan {
 	int32_t *centres; /* station, waterline; every level and colour one after the other */
 	size_t direction_count;
 	int fairness;                  /* GRID_BENDING ... */
+	const double *penalties;       /* r of each problem's interior penalty, borrowed; NULL: none */
 	batten_search_options options; /* with every 0 replaced by what it chooses */
 } search_plan;
 

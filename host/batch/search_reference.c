@@ -32,8 +32,8 @@ void search_reference_release(search_reference *search)
 	*search = (search_reference){ 0 };
 }
 
-void search_reference_run(search_reference *search, const batten_search_problem *problem,
-                          double *y_m, batten_search_result *result)
+void search_reference_run(search_reference *search, const batten_search_problem *problems,
+                          size_t which, double *y_m, batten_search_result *result)
 {
 	const search_plan *plan = search->plan;
 	const reference_multilevel shared = { .stations = (int)plan->station_count,
@@ -41,6 +41,7 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 		                                  .level_count = plan->level_count,
 		                                  .iteration_limit = (int)plan->options.iteration_limit,
 		                                  .fairness = plan->fairness,
+		                                  .penalised = plan->penalties != NULL,
 		                                  .levels = &plan->levels[0].width_x,
 		                                  .centres = plan->centres };
 	union {
@@ -52,7 +53,7 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 		float f32[SEARCH_OUTCOME_COUNT];
 	} outcome;
 	memset(search->arrays, 0, plan->node_count * SEARCH_ARRAY_COUNT * search_scalar_size(plan));
-	search_pack(plan, problem, 0, 1, search->arrays, &settings);
+	search_pack(plan, problems, which, 0, 1, search->arrays, &settings);
 	const bool textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK;
 	if (plan->options.precision == BATTEN_F64)
 		(textbook ? reference_textbook_f64 : reference_multilevel_f64)(
@@ -60,5 +61,5 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 	else
 		(textbook ? reference_textbook_f32 : reference_multilevel_f32)(
 			&shared, search->stencils, search->arrays, settings.f32, outcome.f32, search->scratch);
-	search_unpack(plan, problem, 0, 1, search->arrays, &outcome, y_m, result);
+	search_unpack(plan, &problems[which], 0, 1, search->arrays, &outcome, y_m, result);
 }

@@ -13,8 +13,8 @@ typedef struct search_reference {
 batten_status search_reference_create(const search_plan *plan, search_reference *out);
 void search_reference_release(search_reference *search);
 
-/* One problem: y_m of its nodes and its result. */
-void search_reference_run(search_reference *search, const batten_search_problem *problem,
-                          double *y_m, batten_search_result *result);
+/* Number `which` of the plan's problems: y_m of its nodes and its result. */
+void search_reference_run(search_reference *search, const batten_search_problem *problems,
+                          size_t which, double *y_m, batten_search_result *result);
 
 #endif

@@ -81,7 +81,7 @@ static batten_status run_both(const search_selftest_sides *sides, const search_p
 	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
 		double known_y[NODES];
 		batten_search_result known = { 0 };
-		status = sides->run_known(plan, &problems[p], known_y, &known);
+		status = sides->run_known(plan, problems, p, known_y, &known);
 		if (status == BATTEN_OK)
 			compare(y + p * NODES, &found[p], known_y, &known, result, &worst);
 	}
@@ -101,7 +101,9 @@ batten_status search_selftest_compare(batten_context *context, const search_self
 	 * the first of the weights. */
 	const size_t count = 2 * lanes + 1;
 	batten_search_problem problems[2 * MOST_LANES + 1];
-	for (size_t p = 0; p < count; p++)
+	double penalties[2 * MOST_LANES + 1];
+	for (size_t p = 0; p < count; p++) {
+		penalties[p] = ldexp(1.0, -(int)p % 8 - 6);
 		problems[p] = (batten_search_problem){ .nodes = hull.nodes,
 			                                   .start_m = hull.y,
 			                                   .target_m = hull.y,
@@ -110,12 +112,15 @@ batten_status search_selftest_compare(batten_context *context, const search_self
 			                                   .w1 = 1.0,
 			                                   .w2 = ldexp(1.0, (int)p % 20 - 3),
 			                                   .half_beam_m = 0.75 };
+	}
 	const batten_grid grid = { STATIONS, WATERLINES, hull.x, hull.z };
 	search_plan *plan = NULL;
 	batten_status status = search_plan_create(context, &grid, count, problems, options, &plan);
 	double *y = batten_allocate(context, count, NODES * sizeof *y);
 	if (status == BATTEN_OK && !y)
 		status = BATTEN_MEMORY;
+	if (status == BATTEN_OK && options->interior_penalty)
+		plan->penalties = penalties;
 	if (status == BATTEN_OK)
 		status = run_both(sides, plan, problems, count, y, result);
 	search_plan_destroy(plan);
@@ -130,13 +135,13 @@ static batten_status run_multilevel(void *engine, const search_plan *plan,
 	return search_engine_run(engine, plan, problems, which, count, y_m, results);
 }
 
-static batten_status run_known(const search_plan *plan, const batten_search_problem *problem,
-                               double *y_m, batten_search_result *result)
+static batten_status run_known(const search_plan *plan, const batten_search_problem *problems,
+                               size_t which, double *y_m, batten_search_result *result)
 {
 	search_reference reference = { 0 };
 	const batten_status status = search_reference_create(plan, &reference);
 	if (status == BATTEN_OK)
-		search_reference_run(&reference, problem, y_m, result);
+		search_reference_run(&reference, problems, which, y_m, result);
 	search_reference_release(&reference);
 	return status;
 }
@@ -154,6 +159,7 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 	options.algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
 	if (shape->textbook)
 		options.last_step = 1e-3; /* it takes hundreds of sweeps to what the other ends with */
+	options.interior_penalty = shape->penalised;
 	if (shape->fairness != GRID_BENDING)
 		options.longitudinal_weight = 2.0;
 	return search_selftest_compare(search_engine_base(engine)->context, &sides, &options,

@@ -10,8 +10,8 @@ typedef struct search_selftest_sides {
 	batten_status (*run)(void *engine, const search_plan *plan,
 	                     const batten_search_problem *problems, const size_t *which, size_t count,
 	                     double *y_m, batten_search_result *results);
-	batten_status (*run_known)(const search_plan *plan, const batten_search_problem *problem,
-	                           double *y_m, batten_search_result *result);
+	batten_status (*run_known)(const search_plan *plan, const batten_search_problem *problems,
+	                           size_t which, double *y_m, batten_search_result *result);
 } search_selftest_sides;
 
 /* Runs both on small searches with these options; fills result as below. */

@@ -307,6 +307,9 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "keep", CLI_TEXT, &request->keep, "LIST",
 		  "volume_m3=0.1%,lcb_pct_lbp_fwd=0.05: keep these measures of the smoothed hull, at its draft, "
 		  "so close" },
+		{ "interior-penalty", CLI_FLAG, &request->interior_penalty, NULL,
+		  "keep bounds by r sum 1/g, r falling (thesis 7.1), not by moves that end at them: --search "
+		  "multilevel, twice the work and more" },
 		{ "polish", CLI_NUMBER, &request->polish, "GAP",
 		  "finish in f64, by Newton steps, where gap_estimate is above this, e.g. 1e-9; with --precision "
 		  "f32 the search only screens" },

@@ -54,6 +54,7 @@ static fair_request request_of(const fair_request *all, batten_fair_method metho
 		one.fairness = "bending";
 		one.net = one.tangents = one.rounded = one.lock = one.max_distance = NULL;
 		one.lower_path = one.upper_path = one.keep = NULL;
+		one.interior_penalty = false;
 		one.w1 = one.w2 = one.longitudinal = one.transverse = one.polish = NAN;
 		if (net)
 			one.order = NULL;

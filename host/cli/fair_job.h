@@ -19,7 +19,7 @@ typedef struct fair_request {
 	const char *restore;                          /* NULL: not given */
 	unsigned order_sections, vertices;            /* UINT_MAX: not given */
 	double max_cn, least_gain;                    /* NaN: not given */
-	bool no_smooth, smooth_first;
+	bool no_smooth, smooth_first, interior_penalty;
 	unsigned iterations, seed; /* iterations UINT_MAX: not given */
 	int device;
 	batten_precision precision;

@@ -169,6 +169,12 @@ static batten_status read_search(const fair_request *request, batten_search_opti
 		return cli_usage("fair",
 		                 "--search: found '%s', expected auto or multilevel with --variables net",
 		                 request->search);
+	options->interior_penalty = request->interior_penalty;
+	if (request->interior_penalty && options->algorithm != BATTEN_ALGORITHM_AUTO &&
+	    options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)
+		return cli_usage(
+			"fair", "--search: found '%s', expected auto or multilevel with --interior-penalty",
+			request->search);
 	if (options->algorithm == BATTEN_ALGORITHM_TEXTBOOK)
 		options->iteration_limit = TEXTBOOK_ITERATIONS;
 	return BATTEN_OK;
@@ -212,6 +218,9 @@ batten_status fair_options_read(const fair_request *request, const batten_hull *
 		status = read_locks(request->lock, hull, options, locks);
 	if (!isnan(request->polish) && !(request->polish > 0.0))
 		return cli_usage("fair", "--polish %g: expected a gap above 0, e.g. 1e-9", request->polish);
+	if (!isnan(request->polish) && request->interior_penalty)
+		return cli_usage("fair", "--polish and --interior-penalty exclude each other: steps of the "
+		                         "first end at bounds");
 	if (!isnan(request->polish) && request->keep)
 		return cli_usage("fair", "--polish and --keep exclude each other");
 	if (!isnan(request->polish))

@@ -82,6 +82,7 @@ static batten_status check_search(const fair_request *request, const batten_fair
 		         { "lock", request->lock != NULL },
 		         { "keep", request->keep != NULL },
 		         { "polish", !isnan(request->polish) },
+		         { "interior-penalty", request->interior_penalty },
 		         { "lower", request->lower_path != NULL },
 		         { "upper", request->upper_path != NULL },
 		         { "max-distance", request->max_distance != NULL },

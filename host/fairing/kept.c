@@ -48,6 +48,11 @@ batten_status fairing_end_check(batten_context *context, const batten_fair_optio
 	    (options->method != BATTEN_METHOD_SEARCH || options->keep_count > 0))
 		return batten_fail(context, BATTEN_USAGE,
 		                   "only a search that keeps no measures is polished");
+	if (options->polish_gap > 0.0 && options->search.interior_penalty)
+		return batten_fail(
+			context, BATTEN_USAGE,
+			"an interior penalty ends inside the box: it is not polished, by steps that "
+			"end at bounds");
 	if (options->keep_count == 0)
 		return BATTEN_OK;
 	if (options->keep_count > BATTEN_KEEP_LIMIT)

@@ -218,6 +218,11 @@ batten_status net_problems_open(batten_context *context, size_t count,
 	batten_status status = check_options(context, options, &chosen);
 	if (status == BATTEN_OK)
 		status = search_options_check(context, &chosen.search, &out->plan.options);
+	if (status == BATTEN_OK && chosen.search.interior_penalty)
+		status = batten_fail(
+			context, BATTEN_USAGE,
+			"an interior penalty is of searches over offsets: none is expected over "
+			"nets");
 	if (status == BATTEN_OK)
 		status = check_algorithm(context, chosen.search.algorithm);
 	out->plan.fairness = (int)chosen.fairness;

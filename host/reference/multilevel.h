@@ -10,6 +10,7 @@
 typedef struct reference_multilevel {
 	int stations, waterlines, level_count, iteration_limit;
 	int fairness;          /* GRID_BENDING ... */
+	int penalised;         /* whether the objective has an interior penalty */
 	const int32_t *levels; /* SEARCH_LEVEL_SIZE each */
 	const int32_t *centres;
 } reference_multilevel;

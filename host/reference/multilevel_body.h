@@ -3,6 +3,7 @@
 
 #define BATTEN_DIALECT_C
 #define GRID_FAIRNESS (s->fairness)
+#define GRID_PENALTY (s->penalised)
 #include "shared/dialect.h"
 #include "shared/grid_moves.h"
 #include "shared/multilevel.h"
@@ -88,8 +89,8 @@ static scalar sweep(const reference_multilevel *plan, const search_state *s, int
 static void extrapolate(const search_state *s, scalar factor)
 {
 	for (int n = 0; n < s->nodes; n++)
-		s->trial[n] = move_clamped(s->y[n], factor * (s->y[n] - s->base[n]), s->lower[n],
-		                           s->upper[n]);
+		s->trial[n] = step_from(s, s->y[n], factor * (s->y[n] - s->base[n]), s->lower[n],
+		                        s->upper[n]);
 }
 
 /* The objective at y. */
@@ -156,6 +157,7 @@ void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencil
 	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings, scratch,
 	                          scratch + 3 * nodes);
 	s.fairness = plan->fairness;
+	s.penalised = plan->penalised;
 	s.y = arrays + SEARCH_ARRAY_Y * nodes;
 	scalar h = settings[SEARCH_SETTING_FIRST_STEP];
 	scalar objective = objective_here(&s);

@@ -164,4 +164,17 @@ SHARED_FUNCTION real node_objective(int kind, grid_weights w, node_slopes s, rea
 	return node_energy(bend, node_fairness(kind, w, s)) + node_closeness(close, y, target);
 }
 
+/* One node's part of the interior penalty (thesis 7.1; Fiacco and McCormick): r (1/g + 1/g') with g and g'
+ * the ways to its bounds as parts of the box's width, so that their sum is 1 and that of their inverses
+ * their product's. A node that is held has none. */
+SHARED_FUNCTION real node_penalty(real r, real y, real lower, real upper)
+{
+	const real one = SPREAD(LITERAL(1.0));
+	const real width = upper - lower;
+	const mask held = !(width > SPREAD(LITERAL(0.0)));
+	const real down = CHOOSE(held, one, y - lower);
+	const real up = CHOOSE(held, one, upper - y);
+	return CHOOSE(held, SPREAD(LITERAL(0.0)), r * ((width / down) * (width / up)));
+}
+
 #endif

@@ -58,8 +58,8 @@ SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move)
 		for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++) {
 			const int node = node_of(s, i, k);
 			const scalar height = hat_height(i - move->station, move->inverse_x) * height_z;
-			s->y[node] = move_clamped(s->trial[node], height * move->step, s->lower[node],
-			                          s->upper[node]);
+			s->y[node] = step_from(s, s->trial[node], height * move->step, s->lower[node],
+			                       s->upper[node]);
 		}
 	}
 }
@@ -101,6 +101,8 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 			                         z[0] * twist + z[1] * turn, z[3] * above - z[2] * below };
 		sum += node_objective(GRID_FAIRNESS, s->weights, slopes, s->bend[node], s->close[node],
 		                      here.here, s->target[node]);
+		if (GRID_PENALTY)
+			sum += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
 		here = next;
 		below = above;
 		twist = turn;
@@ -243,7 +245,7 @@ SHARED_FUNCTION real single_upright(const search_state *s, const single_offset *
 /* The objective over the nodes whose terms the offset can change, after a step. */
 SHARED_FUNCTION real single_objective(const search_state *s, const single_offset *o, real step)
 {
-	const real y = move_clamped(o->y, step, o->lower, o->upper);
+	const real y = step_from(s, o->y, step, o->lower, o->upper);
 	const real moved = y - o->y;
 	const real below = (single_corner(s, o, 0, 0, moved) + single_upright(s, o, 0, moved)) +
 	                   single_corner(s, o, 0, 2, moved);
@@ -251,12 +253,15 @@ SHARED_FUNCTION real single_objective(const search_state *s, const single_offset
 	                   single_corner(s, o, 2, 2, moved);
 	const real here = (single_side(s, o, 0, moved) + single_upright(s, o, 1, moved)) +
 	                  single_side(s, o, 2, moved);
-	return ((below + here) + above) + node_closeness(o->close, y, o->target);
+	real own = node_closeness(o->close, y, o->target);
+	if (GRID_PENALTY)
+		own += node_penalty(s->penalty, y, o->lower, o->upper);
+	return ((below + here) + above) + own;
 }
 
 SHARED_FUNCTION void single_end(const search_state *s, const single_offset *o, real step)
 {
-	s->y[o->node] = move_clamped(o->y, step, o->lower, o->upper);
+	s->y[o->node] = step_from(s, o->y, step, o->lower, o->upper);
 }
 
 #endif

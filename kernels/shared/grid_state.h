@@ -1,12 +1,18 @@
 /* A search over an offset grid at work: its part of memory, and the whole objective.
  *
  * Defined before this is included: GRID_FAIRNESS (search_layout.h); a constant in OpenCL, in C it may look
- * into `s`, the state at hand. */
+ * into `s`, the state at hand. GRID_PENALTY: 1 where the objective has an interior penalty, in C as well by
+ * `s`; 0 where it is not defined. */
 #ifndef BATTEN_SHARED_GRID_STATE_H
 #define BATTEN_SHARED_GRID_STATE_H
 
+#if !defined(GRID_PENALTY)
+#define GRID_PENALTY 0
+#endif
+
 #include "dialect.h"
 #include "grid_energy.h"
+#include "multilevel.h"
 #include "search_layout.h"
 
 typedef struct search_state {
@@ -19,7 +25,9 @@ typedef struct search_state {
 	LOCAL real *lines; /* one sum a waterline */
 	grid_weights weights;
 	real wide_probes;
-	int fairness; /* in C, for GRID_FAIRNESS */
+	real penalty;  /* r of GRID_PENALTY */
+	int fairness;  /* in C, for GRID_FAIRNESS */
+	int penalised; /* in C, for GRID_PENALTY */
 } search_state;
 
 SHARED_FUNCTION int node_of(const search_state *s, int station, int waterline)
@@ -35,6 +43,15 @@ SHARED_FUNCTION node_stencil stencil_of(const search_state *s, int station, int 
 		stencil.z[w] = s->along_z[waterline * STENCIL_SIZE + w];
 	}
 	return stencil;
+}
+
+/* Where a step leads from y in a box. */
+SHARED_FUNCTION real step_from(const search_state *s, real y, real step, real lower, real upper)
+{
+	(void)s;
+	if (GRID_PENALTY)
+		return move_inside(y, step, lower, upper);
+	return move_clamped(y, step, lower, upper);
 }
 
 /* The whole objective at s->trial, the same in every work-item. */
@@ -55,6 +72,8 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 			line += node_objective(GRID_FAIRNESS, s->weights,
 			                       slopes_of(stencil_of(s, i, k), below, here, above),
 			                       s->bend[node], s->close[node], here.here, s->target[node]);
+			if (GRID_PENALTY)
+				line += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
 		}
 		s->lines[k] = line;
 	}
@@ -92,6 +111,7 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.weights.across = settings[SEARCH_SETTING_ACROSS];
 	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
 	s.wide_probes = settings[SEARCH_SETTING_WIDE_PROBES];
+	s.penalty = settings[SEARCH_SETTING_PENALTY];
 	return s;
 }
 

@@ -57,6 +57,20 @@ SHARED_FUNCTION real move_clamped(real y, real step, real lower, real upper)
 	return CHOOSE(raised > upper, upper, raised);
 }
 
+/* Interior penalty: the part of the way to a bound that a move goes at most. The next r is a hundredth of
+ * the last, and that brings the minimum a tenth as near to a bound that holds it. */
+#define INSIDE_PART LITERAL(0.9)
+
+/* A value moved by step, but not to a bound, where an interior penalty is infinite: at most INSIDE_PART of
+ * the way there, and nowhere where rounding would land on it. */
+SHARED_FUNCTION real move_inside(real y, real step, real lower, real upper)
+{
+	const real down = SPREAD(INSIDE_PART) * (lower - y);
+	const real up = SPREAD(INSIDE_PART) * (upper - y);
+	const real moved = y + CHOOSE(step < down, down, CHOOSE(step > up, up, step));
+	return CHOOSE((moved > lower) & (moved < upper), moved, y);
+}
+
 /* The step to the bottom of the parabola through the changes at +h, 0 and -h, at most 4 h long: a
  * longer one may leap into a spurious minimum, because a cliff in a graph surface costs almost
  * nothing. 0 where the parabola has no bottom. */

@@ -32,10 +32,11 @@ enum {
 enum {
 	SEARCH_SETTING_FIRST_STEP,
 	SEARCH_SETTING_LAST_STEP,
-	SEARCH_SETTING_ALONG, /* the rest: grid_weights of grid_energy.h */
+	SEARCH_SETTING_ALONG, /* this and the next two: grid_weights of grid_energy.h */
 	SEARCH_SETTING_ACROSS,
 	SEARCH_SETTING_BLUNT,
 	SEARCH_SETTING_WIDE_PROBES, /* two for each direction of the wide levels (multilevel.h) */
+	SEARCH_SETTING_PENALTY,     /* r of the interior penalty; 0: none */
 	SEARCH_SETTING_COUNT
 };
 enum {

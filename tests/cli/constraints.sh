@@ -107,6 +107,25 @@ for key in lower upper; do
 	[ "$(member out/report.json method $key)" = $key.csv ] || fail "$key is not in the report"
 done
 
+# --interior-penalty: the minimum of the box, no offset at a bound, the same bits on the C path.
+for run in "box:--search multilevel" "inside:--interior-penalty" "known:--interior-penalty --device reference"; do
+	expect 0 fair "$hull" $weights --lock station:4.8 ${run#*:} --out "${run%%:*}"
+done
+cmp inside/faired.csv known/faired.csv
+holds 'the same minimum' 'a - b <= 1e-9 * b && b - a <= 1e-7 * b' \
+	a="$(member inside/report.json search objective_after)" \
+	b="$(member box/report.json search objective_after)"
+holds 'nothing at a bound' 'i == 0 && b > 20' i="$(member inside/report.json method at_limit_count)" \
+	b="$(member box/report.json method at_limit_count)"
+[ "$(member inside/report.json method search)" = multilevel ] || fail 'another search'
+[ "$(member inside/report.json method interior_penalty)" = true ] || fail 'not in the report'
+expect_json inside/report.json
+for others in "--search block" "--search textbook" "--polish 1e-9" "--variables net" "--method inverse"; do
+	expect 2 fair "$hull" --interior-penalty $others --out none
+	one_line
+	says 'interior-penalty'
+done
+
 # The iteration limit: exit code 1, said, and everything is written.
 expect 1 fair "$hull" --iterations 1 --out short
 says '^warning: .*iteration limit'

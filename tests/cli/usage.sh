@@ -32,7 +32,7 @@ for command in fair measure convert devices selftest bench; do
 	done
 done
 expect 0 fair --help
-for option in out method search variables fairness longitudinal transverse front w1 w2 max-distance lock lower upper no-smooth \
+for option in out method search variables fairness longitudinal transverse front w1 w2 max-distance lock lower upper interior-penalty no-smooth \
 	iterations device precision seed; do
 	prints "^  --$option "
 done

@@ -20,9 +20,9 @@ static void test_lanes(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING, false },
-		{ 0, BATTEN_F64, 16, 1, false, GRID_BENDING, false },
-		{ 0, BATTEN_F32, 8, 1, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING, false, false },
+		{ 0, BATTEN_F64, 16, 1, false, GRID_BENDING, false, false },
+		{ 0, BATTEN_F32, 8, 1, false, GRID_BENDING, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -31,9 +31,9 @@ static void test_work_groups(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING, false },
-		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false },
-		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING, false, false },
+		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false, false },
+		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false, false },
 	};
 	check("bsra_trawler", shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -42,8 +42,8 @@ static void test_global_state(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, false },
-		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING, false },
+		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, false, false },
+		{ 0, BATTEN_F32, 16, 1, true, GRID_BENDING, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -52,13 +52,22 @@ static void test_textbook_and_other_fairness(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, true },
-		{ 0, BATTEN_F32, 1, 7, false, GRID_BENDING, true },
-		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING_WEIGHTED, false },
-		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false },
-		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false },
+		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, true, false },
+		{ 0, BATTEN_F32, 1, 7, false, GRID_BENDING, true, false },
+		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING_WEIGHTED, false, false },
+		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false, false },
+		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
+}
+
+static void test_interior_penalty(void **state)
+{
+	(void)state;
+	search_case c = search_case_open("npl_parent", 0.01, true);
+	search_equal_penalised(&c, BATTEN_F64, 1, 6);
+	search_equal_penalised(&c, BATTEN_F32, 1, 16);
+	search_case_close(&c);
 }
 
 int main(void)
@@ -68,6 +77,7 @@ int main(void)
 		cmocka_unit_test(test_work_groups),
 		cmocka_unit_test(test_global_state),
 		cmocka_unit_test(test_textbook_and_other_fairness),
+		cmocka_unit_test(test_interior_penalty),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

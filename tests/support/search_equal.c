@@ -88,3 +88,36 @@ void search_equal_check(const search_case *c, const search_shape *shape)
 	free(y);
 	free(known_y);
 }
+
+void search_equal_penalised(const search_case *c, batten_precision precision, unsigned lanes,
+                            unsigned work_group)
+{
+	batten_search_problem problems[EQUAL_COUNT];
+	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
+	double *y = calloc(EQUAL_COUNT * c->nodes, sizeof *y);
+	double *known_y = calloc(EQUAL_COUNT * c->nodes, sizeof *known_y);
+	assert_non_null(y);
+	assert_non_null(known_y);
+	search_equal_problems(c, problems);
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.device = BATTEN_DEVICE_REFERENCE;
+	options.precision = precision;
+	options.interior_penalty = true;
+	assert_int_equal(batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options,
+	                                     known_y, known, NULL),
+	                 BATTEN_OK);
+	batten_run run;
+	options.device = 0;
+	options.lanes = lanes;
+	options.work_group = work_group;
+	assert_int_equal(batten_search_batch(c->context, &c->grid, EQUAL_COUNT, problems, &options, y,
+	                                     results, &run),
+	                 BATTEN_OK);
+	assert_true(run.strict);
+	for (size_t p = 0; p < EQUAL_COUNT; p++)
+		assert_true(results[p].probes == known[p].probes);
+	search_equal_compare(c, y, results, known_y, known);
+	free(y);
+	free(known_y);
+}

@@ -14,6 +14,10 @@ void search_equal_problems(const search_case *c, batten_search_problem problems[
 /* Runs them in the shape given, and on the C path; fails the test on the first bit that differs. */
 void search_equal_check(const search_case *c, const search_shape *shape);
 
+/* Whole runs of a batch with interior penalties, every round, on device 0 in this shape and on the C path. */
+void search_equal_penalised(const search_case *c, batten_precision precision, unsigned lanes,
+                            unsigned work_group);
+
 /* Fails unless two ends of a batch are the same. */
 void search_equal_compare(const search_case *c, const double *y,
                           const batten_search_result *results, const double *known_y,

@@ -45,10 +45,14 @@ static void test_default_shapes_equal_the_c_path(void **state)
 {
 	(void)state;
 	search_case c = search_case_open("npl_parent", 0.01, true);
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, false });
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, false });
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, true });
-	search_equal_check(&c, &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, true });
+	search_equal_check(&c,
+	                   &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, false, false });
+	search_equal_check(&c,
+	                   &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, false, false });
+	search_equal_check(&c,
+	                   &(search_shape){ 0, BATTEN_F64, 8, 1, false, GRID_BENDING, true, false });
+	search_equal_check(&c,
+	                   &(search_shape){ 0, BATTEN_F32, 16, 1, false, GRID_BENDING, true, false });
 	search_case_close(&c);
 }
 

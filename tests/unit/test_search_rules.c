@@ -2,6 +2,7 @@
 #define BATTEN_DIALECT_C
 #define BATTEN_DOUBLE 1
 #include "shared/dialect.h"
+#include "shared/grid_energy.h"
 #include "shared/multilevel.h"
 
 #include <setjmp.h>
@@ -55,12 +56,35 @@ static void test_move_stays_in_its_box(void **state)
 	assert_true(move_clamped(1.0, -3.0, 1.0, 1.0) == 1.0);
 }
 
+/* Towards a bound nine tenths of the way at most, and not at all where rounding would land on it. */
+static void test_move_stays_inside(void **state)
+{
+	(void)state;
+	assert_true(move_inside(1.0, 0.25, 0.0, 2.0) == 1.25);
+	assert_true(fabs(move_inside(1.0, 3.0, 0.0, 2.0) - 1.9) < 1e-15);
+	assert_true(fabs(move_inside(1.0, -3.0, 0.5, 2.0) - 0.55) < 1e-15);
+	assert_true(move_inside(1.0, -3.0, 1.0, 1.0) == 1.0);
+	const double next = nextafter(1.0, 2.0);
+	assert_true(move_inside(next, -1.0, 1.0, 2.0) == next);
+	assert_true(move_inside(next, 1.0, 1.0, nextafter(next, 2.0)) == next);
+}
+
+/* r (1/g + 1/g'), whatever the width. */
+static void test_node_penalty(void **state)
+{
+	(void)state;
+	assert_true(node_penalty(1.0, 0.5, 0.0, 1.0) == 4.0);
+	assert_true(node_penalty(0.5, 3.0, 2.0, 6.0) == 0.5 * (4.0 + 4.0 / 3.0));
+	assert_true(node_penalty(1.0, 3.0, 3.0, 3.0) == 0.0);
+	assert_true(isfinite(node_penalty(1.0, 1e-300, 0.0, 1e-299)));
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_parabola_step),
-		cmocka_unit_test(test_hat_height),
-		cmocka_unit_test(test_move_stays_in_its_box),
+		cmocka_unit_test(test_parabola_step),         cmocka_unit_test(test_hat_height),
+		cmocka_unit_test(test_move_stays_in_its_box), cmocka_unit_test(test_move_stays_inside),
+		cmocka_unit_test(test_node_penalty),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,6 +71,13 @@ typedef struct batten_search_options {
 	 * entries of the shape operator in this frame become a k11, sqrt(a b) k12, b k22 in every
 	 * fairness: bending is a^2 k11^2 + 2 a b k12^2 + b^2 k22^2. 0 or 1e-6 .. 1e6, not both 0; 1, 1. */
 	double longitudinal_weight, transverse_weight;
+	/* MULTILEVEL, which AUTO then takes: the box is kept by an interior penalty (thesis 7.1; Fiacco and
+	 * McCormick), not by moves that end at it; false. Searched is F + r sum (1/g + 1/g'), g and g' being the
+	 * ways of an offset to its bounds as parts of the box's width, from a start at least a thousandth of the
+	 * width inside, then again with r a hundredth of that, until r's part is below 1e-10 of F (f32: 1e-5).
+	 * Every y that can move ends strictly inside its box. Iterations and probes are those of all rounds,
+	 * iteration_limit is that of each; objectives are F alone. bench/README.md has what it costs. */
+	bool interior_penalty;
 	/* BLOCK: slopes of the integrand by their formulas, not by probes of it; false. */
 	bool analytic_slopes;
 } batten_search_options;
@@ -144,8 +151,8 @@ typedef struct batten_certificate {
 	double gradient_per_m; /* norm of the projected gradient: dF/dy over the free offsets */
 	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
 	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
-	 * on their way to one). An offset that f32 has left rounding away from the bound that holds it adds
-	 * what its slope gains on that way. NaN where H is not positive definite over the free offsets, that
+	 * on their way to one). An offset that f32 has left rounding away from the bound that holds it, or
+	 * an interior penalty inside it, adds what its slope gains on that way. NaN where H is not positive definite over the free offsets, that
 	 * is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
 	double gap_estimate;
 	size_t free_count;
@@ -154,7 +161,8 @@ typedef struct batten_certificate {
 } batten_certificate;
 
 /* Judges the ends of count searches (thesis 7.2 stops by the step alone). Problems and y_m as given to
- * and by batten_search_batch, of any algorithm; of the options fairness, weights and precision count.
+ * and by batten_search_batch, of any algorithm; of the options fairness, weights, precision and interior
+ * penalty count.
  * A search costs about as much as 20 of its objectives and a Cholesky factor of bandwidth 2 lines.
  * Returns INCOMPLETE when a problem is invalid or y not finite (its numbers are NaN, message says why).
  * Errors: USAGE, MEMORY. */
@@ -168,7 +176,8 @@ BATTEN_API batten_status batten_search_certify_batch(batten_context *context,
 /* Goes on from the ends y_m of count searches, in double, until the gap estimate of each is at most `gap`
  * (above 0): steps of Newton's method over the free offsets, kept in the box, halved until the objective
  * falls. So it finishes what f32 has screened. Certificates are of the new ends; one whose Hessian is
- * not positive definite, or where no step gains, stays above gap. Else as batten_search_certify_batch. */
+ * not positive definite, or where no step gains, stays above gap. Not of searches with an interior penalty.
+ * Else as batten_search_certify_batch. */
 BATTEN_API batten_status batten_search_polish_batch(batten_context *context,
                                                     const batten_grid *grid, size_t count,
                                                     const batten_search_problem *problems,
