@@ -42,38 +42,68 @@ static inline void move_begin(const search_state *s, int colour, int direction, 
 	hat_keep(s, move);
 }
 
-static inline real move_objective(const search_state *s, const search_move *move)
+/* An exploratory move along a hat. Returns the step taken. */
+static inline real hat_explore(const search_state *s, search_move *move, real h, real *extra)
 {
-	return hat_objective(s, move);
-}
-
-static inline void move_end(const search_state *s, const search_move *move)
-{
-	hat_place(s, move);
-}
-
-#include "shared/search_moves.h"
-
-/* An exploratory move along one direction. Returns the length of the step taken. */
-static inline real direction_explore(const search_state *s, int colour, int direction, real h,
-                                     real *extra)
-{
-	global const int *level = level_of(s, colour);
-	if (level[SEARCH_LEVEL_WIDTH_X] > 1 || level[SEARCH_LEVEL_WIDTH_Z] > 1) {
-		search_move move;
-		move_begin(s, colour, direction, &move);
-		return search_explore(s, &move, h, extra);
+	const real zero = SPREAD(LITERAL(0.0));
+	search_trial trial = search_trial_begin();
+	(void)search_trial_next(&trial, 0, h, hat_objective_before(s, move), extra);
+	move->step = trial.next;
+	ROLLED
+	for (int turn = 1;; turn++) {
+		const real sum = hat_objective(s, move);
+		if (turn > 3)
+			break; /* the step taken, worked again */
+		if (search_trial_next(&trial, turn, h, sum, extra)) {
+			move->step = trial.next;
+			continue;
+		}
+		const real probed = move->step;
+		move->step = search_trial_end(&trial);
+		if (!ANY((move->step != zero) & (move->step != probed)))
+			break; /* the terms of the last probe are those of the step taken */
+		turn = 3;
 	}
+	hat_end(s, move);
+	return move->step;
+}
+
+/* An exploratory move of a single offset. Returns the step taken. */
+static inline real single_explore(const search_state *s, int station, int waterline, real h,
+                                  real *extra)
+{
 	single_offset offset;
 	search_trial trial = search_trial_begin();
-	single_begin(s, s->centres[2 * direction], s->centres[2 * direction + 1], &offset);
+	single_begin(s, station, waterline, &offset);
 	ROLLED
 	for (int turn = 0; turn < 4; turn++)
 		if (!search_trial_next(&trial, turn, h, single_objective(s, &offset, trial.next), extra))
 			break;
 	const real step = search_trial_end(&trial);
 	single_end(s, &offset, step);
+	return step;
+}
+
+/* An exploratory move along one direction. Returns the length of the step taken. */
+static inline real direction_explore(const search_state *s, int colour, int direction, real h,
+                                     real *extra)
+{
+	global const int *level = level_of(s, colour);
+	search_move move;
+	real step;
+	if (level[SEARCH_LEVEL_WIDTH_X] > 1 || level[SEARCH_LEVEL_WIDTH_Z] > 1) {
+		move_begin(s, colour, direction, &move);
+		step = hat_explore(s, &move, h, extra);
+	} else {
+		step = single_explore(s, s->centres[2 * direction], s->centres[2 * direction + 1], h,
+		                      extra);
+	}
 	return CHOOSE(step < SPREAD(LITERAL(0.0)), -step, step);
+}
+
+static inline void sweeps_begin(const search_state *s)
+{
+	grid_terms_begin(s);
 }
 
 #include "shared/search_sweep.h"
@@ -132,7 +162,7 @@ static inline void search_pattern(const search_state *s, mask going, int turn, s
 
 /* stencils: STENCIL_SIZE a station, then a waterline. levels: SEARCH_LEVEL_SIZE numbers each. centres:
  * station and waterline of each direction. arrays [group][SEARCH_ARRAY_COUNT][nodes], settings
- * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: 3 * nodes of
+ * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: SEARCH_STATE_COUNT * nodes of
  * real a group. lines: a real a waterline. gathered: two reals a work-item. */
 kernel void multilevel(int stations, int waterlines, int level_count, int iteration_limit,
                        global const int *levels, global const int *centres,
@@ -143,7 +173,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	const size_t group = get_group_id(0);
 	const size_t nodes = (size_t)(stations + 2) * (size_t)(waterlines + 2);
 #if defined(STATE_IS_GLOBAL)
-	room += group * 3 * nodes;
+	room += group * SEARCH_STATE_COUNT * nodes;
 #endif
 	arrays += group * SEARCH_ARRAY_COUNT * nodes;
 	settings += group * SEARCH_SETTING_COUNT;

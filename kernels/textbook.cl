@@ -20,7 +20,7 @@ kernel void textbook(int stations, int waterlines, int level_count, int iteratio
 	const size_t group = get_group_id(0);
 	const size_t nodes = (size_t)(stations + 2) * (size_t)(waterlines + 2);
 #if defined(STATE_IS_GLOBAL)
-	room += group * 3 * nodes;
+	room += group * SEARCH_STATE_COUNT * nodes;
 #endif
 	(void)level_count;
 	(void)levels;

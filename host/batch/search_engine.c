@@ -27,7 +27,8 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 		                   .penalised = plan->penalties != NULL };
 	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
 	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
-	const size_t state = (3 * plan->node_count + plan->waterline_count + 2 * shape.work_group) *
+	const size_t state = (SEARCH_STATE_COUNT * plan->node_count + plan->waterline_count +
+	                      2 * shape.work_group) *
 	                     lane_bytes;
 	shape.global_state = state > device->local_memory_bytes;
 	return shape;
@@ -87,8 +88,8 @@ size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 {
 	const batten_device *device = batch_engine_device(&engine->base);
 	const size_t lanes = engine->shape.lanes;
-	const size_t group_bytes = (SEARCH_ARRAY_COUNT + 3) * plan->node_count * lanes *
-	                           batch_engine_number_size(engine->shape.precision);
+	const size_t group_bytes = (SEARCH_ARRAY_COUNT + SEARCH_STATE_COUNT) * plan->node_count *
+	                           lanes * batch_engine_number_size(engine->shape.precision);
 	const size_t limit = batch_engine_launch_bytes(&engine->base, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
@@ -139,7 +140,7 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 	/* An OpenCL buffer cannot be empty. */
 	const size_t centres = (2 * plan->direction_count + 1) * sizeof(int32_t);
 	const size_t state = engine->shape.global_state
-	                         ? 3 * plan->node_count * b->lanes * number * b->groups
+	                         ? SEARCH_STATE_COUNT * plan->node_count * b->lanes * number * b->groups
 	                         : 0;
 	const batch_engine_upload uploads[] = {
 		{ &b->levels_on, (size_t)plan->level_count * sizeof plan->levels[0], plan->levels },
@@ -170,7 +171,8 @@ static batten_status block_launch(search_engine *engine, const search_plan *plan
 		{ .buffer = b->arrays_on },
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcome_on },
-		{ .buffer = b->state_on, .size = b->state_on ? 0 : 3 * plan->node_count * lane_bytes },
+		{ .buffer = b->state_on,
+		  .size = b->state_on ? 0 : SEARCH_STATE_COUNT * plan->node_count * lane_bytes },
 		{ .size = plan->waterline_count * lane_bytes },
 		{ .size = 2 * group * lane_bytes },
 	};

@@ -11,8 +11,9 @@ batten_status search_reference_create(const search_plan *plan, search_reference 
 	search_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, search_stencil_count(plan), size);
 	search.arrays = batten_allocate(plan->context, plan->node_count, SEARCH_ARRAY_COUNT * size);
-	/* Three arrays of nodes and a number a waterline. */
-	search.scratch = batten_allocate(plan->context, plan->node_count, 4 * size);
+	/* Arrays of nodes, and a number a waterline. */
+	search.scratch = batten_allocate(plan->context, plan->node_count,
+	                                 (SEARCH_STATE_COUNT + 1) * size);
 	if (!search.stencils || !search.arrays || !search.scratch) {
 		search_reference_release(&search);
 		return BATTEN_MEMORY;
@@ -55,11 +56,16 @@ void search_reference_run(search_reference *search, const batten_search_problem 
 	memset(search->arrays, 0, plan->node_count * SEARCH_ARRAY_COUNT * search_scalar_size(plan));
 	search_pack(plan, problems, which, 0, 1, search->arrays, &settings);
 	const bool textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK;
+	const bool bending = plan->fairness == GRID_BENDING && !shared.penalised;
 	if (plan->options.precision == BATTEN_F64)
-		(textbook ? reference_textbook_f64 : reference_multilevel_f64)(
-			&shared, search->stencils, search->arrays, settings.f64, outcome.f64, search->scratch);
+		(textbook  ? reference_textbook_f64
+		 : bending ? reference_multilevel_bending_f64
+		           : reference_multilevel_f64)(&shared, search->stencils, search->arrays,
+		                                       settings.f64, outcome.f64, search->scratch);
 	else
-		(textbook ? reference_textbook_f32 : reference_multilevel_f32)(
-			&shared, search->stencils, search->arrays, settings.f32, outcome.f32, search->scratch);
+		(textbook  ? reference_textbook_f32
+		 : bending ? reference_multilevel_bending_f32
+		           : reference_multilevel_f32)(&shared, search->stencils, search->arrays,
+		                                       settings.f32, outcome.f32, search->scratch);
 	search_unpack(plan, &problems[which], 0, 1, search->arrays, &outcome, y_m, result);
 }

@@ -15,11 +15,18 @@ typedef struct reference_multilevel {
 	const int32_t *centres;
 } reference_multilevel;
 
-/* scratch has room for three arrays of nodes and a number a waterline. */
+/* scratch has room for SEARCH_STATE_COUNT arrays of nodes and a number a waterline. */
 void reference_multilevel_f64(const reference_multilevel *plan, const double *stencils,
                               double *arrays, const double *settings, double *outcome,
                               double *scratch);
 void reference_multilevel_f32(const reference_multilevel *plan, const float *stencils,
                               float *arrays, const float *settings, float *outcome, float *scratch);
+/* The same for GRID_BENDING without a penalty, faster. */
+void reference_multilevel_bending_f64(const reference_multilevel *plan, const double *stencils,
+                                      double *arrays, const double *settings, double *outcome,
+                                      double *scratch);
+void reference_multilevel_bending_f32(const reference_multilevel *plan, const float *stencils,
+                                      float *arrays, const float *settings, float *outcome,
+                                      float *scratch);
 
 #endif

@@ -1,9 +1,8 @@
-/* Body of host/reference/multilevel.c, compiled once per precision: the includer defines
- * BATTEN_DOUBLE and MULTILEVEL_FUNCTION. No include guard, on purpose. */
+/* Body of host/reference/multilevel_*.c, compiled once per precision, and once more for plain bending in a box,
+ * which takes two thirds of the time where the compiler knows it: the includer defines BATTEN_DOUBLE,
+ * MULTILEVEL_FUNCTION, GRID_FAIRNESS and GRID_PENALTY. No include guard, on purpose. */
 
 #define BATTEN_DIALECT_C
-#define GRID_FAIRNESS (s->fairness)
-#define GRID_PENALTY (s->penalised)
 #include "shared/dialect.h"
 #include "shared/grid_moves.h"
 #include "shared/multilevel.h"
@@ -24,21 +23,25 @@ static scalar objective_after(const search_state *s, direction *d, scalar step)
 	return hat_objective(s, &d->move);
 }
 
-static void move_for_good(const search_state *s, direction *d, scalar step)
+/* `probed`: the last step that was. */
+static void move_for_good(const search_state *s, direction *d, scalar step, scalar probed)
 {
 	if (d->single) {
 		single_end(s, &d->offset, step);
 		return;
 	}
 	d->move.step = step;
-	hat_place(s, &d->move);
+	if (step != LITERAL(0.0) && step != probed)
+		(void)hat_objective(s, &d->move); /* for its terms */
+	hat_end(s, &d->move);
 }
 
 /* Exploratory move along one direction: +h, -h and the bottom of the parabola through them; the best
  * is taken if it is a gain. Returns the length of the step taken. */
 static scalar explore(const search_state *s, direction *d, scalar h, uint64_t *extra)
 {
-	const scalar before = objective_after(s, d, LITERAL(0.0));
+	const scalar before = d->single ? single_objective(s, &d->offset, LITERAL(0.0))
+	                                : hat_objective_before(s, &d->move);
 	const scalar plus = objective_after(s, d, h) - before;
 	const scalar minus = objective_after(s, d, -h) - before;
 	const scalar bottom = parabola_step(h, plus, minus);
@@ -54,7 +57,7 @@ static scalar explore(const search_state *s, direction *d, scalar h, uint64_t *e
 	}
 	if (!(change < -(GAIN_FLOOR * before)))
 		step = LITERAL(0.0);
-	move_for_good(s, d, step);
+	move_for_good(s, d, step, bottom != LITERAL(0.0) ? bottom : -h);
 	return step < LITERAL(0.0) ? -step : step;
 }
 
@@ -137,6 +140,7 @@ static iteration iterate(const reference_multilevel *plan, const search_state *s
 	iteration done = { .objective = objective };
 	scalar after_wide = objective;
 	memcpy(s->base, s->y, (size_t)s->nodes * sizeof *s->base);
+	grid_terms_begin(s);
 	if (wide_levels > 0 && wide_is_due) {
 		done.longest = sweep(plan, s, plan->level_count, narrow, h, extra);
 		after_wide = objective_here(s);
@@ -155,7 +159,7 @@ void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencil
 {
 	const size_t nodes = ((size_t)plan->stations + 2) * ((size_t)plan->waterlines + 2);
 	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings, scratch,
-	                          scratch + 3 * nodes);
+	                          scratch + SEARCH_STATE_COUNT * nodes);
 	s.fairness = plan->fairness;
 	s.penalised = plan->penalised;
 	s.y = arrays + SEARCH_ARRAY_Y * nodes;

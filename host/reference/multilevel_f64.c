@@ -6,4 +6,6 @@
 
 #define BATTEN_DOUBLE 1
 #define MULTILEVEL_FUNCTION reference_multilevel_f64
+#define GRID_FAIRNESS (s->fairness)
+#define GRID_PENALTY (s->penalised)
 #include "reference/multilevel_body.h"

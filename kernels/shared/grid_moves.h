@@ -3,7 +3,8 @@
  *
  * A single offset changes the derivatives of its 3 x 3 nodes by so much a step, at the corners y_xz alone:
  * they are made once for all its probes. A wider hat is moved in place, from where its nodes were, which is
- * kept in trial: no other direction of its colour reads them. */
+ * kept in trial: no other direction of its colour reads them. The terms at y are kept, so that nothing need be
+ * worked where the step is 0; single offsets come last in an iteration and leave them behind. */
 #ifndef BATTEN_SHARED_GRID_MOVES_H
 #define BATTEN_SHARED_GRID_MOVES_H
 
@@ -37,27 +38,30 @@ SHARED_FUNCTION int hat_last(int centre, int width, int beside, int count)
 
 SHARED_FUNCTION void hat_keep(const search_state *s, const search_move *move)
 {
+	const int first_k = hat_first(move->waterline, move->width_z, 0);
 	const int last_k = hat_last(move->waterline, move->width_z, 0, s->waterlines);
 	const int last_i = hat_last(move->station, move->width_x, 0, s->stations);
 	ROLLED
-	for (int k = hat_first(move->waterline, move->width_z, 0); k <= last_k; k++) {
+	for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++) {
+		int node = node_of(s, i, first_k);
 		ROLLED
-		for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++)
-			s->trial[node_of(s, i, k)] = s->y[node_of(s, i, k)];
+		for (int k = first_k; k <= last_k; k++, node += s->stride)
+			s->trial[node] = s->y[node];
 	}
 }
 
 SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move)
 {
+	const int first_k = hat_first(move->waterline, move->width_z, 0);
 	const int last_k = hat_last(move->waterline, move->width_z, 0, s->waterlines);
 	const int last_i = hat_last(move->station, move->width_x, 0, s->stations);
 	ROLLED
-	for (int k = hat_first(move->waterline, move->width_z, 0); k <= last_k; k++) {
-		const scalar height_z = hat_height(k - move->waterline, move->inverse_z);
+	for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++) {
+		const scalar height_x = hat_height(i - move->station, move->inverse_x);
+		int node = node_of(s, i, first_k);
 		ROLLED
-		for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++) {
-			const int node = node_of(s, i, k);
-			const scalar height = hat_height(i - move->station, move->inverse_x) * height_z;
+		for (int k = first_k; k <= last_k; k++, node += s->stride) {
+			const scalar height = height_x * hat_height(k - move->waterline, move->inverse_z);
 			s->y[node] = step_from(s, s->trial[node], height * move->step, s->lower[node],
 			                       s->upper[node]);
 		}
@@ -78,8 +82,9 @@ SHARED_FUNCTION row_slopes row_of(const search_state *s, const scalar *x, int no
 	return row;
 }
 
-/* The terms of a station's nodes first_k .. last_k. */
-SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k)
+/* The terms of a station's nodes first_k .. last_k, into `terms` too. */
+SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k,
+                                      STATE real *terms)
 {
 	scalar x[STENCIL_SIZE];
 	real sum = SPREAD(LITERAL(0.0));
@@ -99,10 +104,12 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 		const real turn = next.first - here.first;
 		const node_slopes slopes = { here.first, z[0] * below + z[1] * above, here.second,
 			                         z[0] * twist + z[1] * turn, z[3] * above - z[2] * below };
-		sum += node_objective(GRID_FAIRNESS, s->weights, slopes, s->bend[node], s->close[node],
-		                      here.here, s->target[node]);
+		real term = node_objective(GRID_FAIRNESS, s->weights, slopes, s->bend[node], s->close[node],
+		                           here.here, s->target[node]);
 		if (GRID_PENALTY)
-			sum += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
+			term += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
+		terms[node] = term;
+		sum += term;
 		here = next;
 		below = above;
 		twist = turn;
@@ -111,7 +118,35 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 	return sum;
 }
 
-/* The objective over the nodes whose terms a hat can change, after its step. */
+/* The terms at y of all nodes, to begin with. */
+SHARED_FUNCTION void grid_terms_begin(const search_state *s)
+{
+	ROLLED
+	for (int i = WORK_ITEM; i < s->stations; i += WORK_ITEMS)
+		(void)column_objective(s, i, 0, s->waterlines - 1, s->terms);
+	WAIT;
+}
+
+/* The objective over the nodes whose terms a hat can change, as known before its probes. */
+SHARED_FUNCTION real hat_objective_before(const search_state *s, const search_move *move)
+{
+	const int first_k = hat_first(move->waterline, move->width_z, 1);
+	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
+	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
+	real sum = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++) {
+		real column = SPREAD(LITERAL(0.0));
+		int node = node_of(s, i, first_k);
+		ROLLED
+		for (int k = first_k; k <= last_k; k++, node += s->stride)
+			column += s->terms[node];
+		sum += column;
+	}
+	return sum;
+}
+
+/* The same after its step; the terms into s->found. */
 SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *move)
 {
 	const int first_k = hat_first(move->waterline, move->width_z, 1);
@@ -121,8 +156,27 @@ SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *mov
 	hat_place(s, move);
 	ROLLED
 	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++)
-		sum += column_objective(s, i, first_k, last_k);
+		sum += column_objective(s, i, first_k, last_k, s->found);
 	return sum;
+}
+
+/* Takes the step and, where there is one, the terms that the last probe found: that of this step. */
+SHARED_FUNCTION void hat_end(const search_state *s, const search_move *move)
+{
+	const int first_k = hat_first(move->waterline, move->width_z, 1);
+	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
+	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
+	const mask moved = move->step != SPREAD(LITERAL(0.0));
+	hat_place(s, move);
+	if (!ANY(moved))
+		return;
+	ROLLED
+	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++) {
+		int node = node_of(s, i, first_k);
+		ROLLED
+		for (int k = first_k; k <= last_k; k++, node += s->stride)
+			s->terms[node] = CHOOSE(moved, s->found[node], s->terms[node]);
+	}
 }
 
 /* ---- single offsets ---- */

@@ -19,6 +19,7 @@ typedef struct search_state {
 	int stations, waterlines, stride, nodes;
 	GLOBAL const scalar *along_x, *along_z;
 	STATE real *y, *base, *trial;
+	STATE real *terms, *found; /* the objective's at y; as a probe found them */
 	GLOBAL const real *lower, *upper, *target, *bend, *close;
 	int level_count, colour_count, wide_colours; /* the rest is for those that work along hats */
 	GLOBAL const int *levels, *centres;
@@ -86,7 +87,7 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 	return sum;
 }
 
-/* The state of a group: its part of the arrays, and three arrays of nodes to work in. */
+/* The state of a group: its part of the arrays, and SEARCH_STATE_COUNT arrays of nodes to work in. */
 SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const scalar *stencils,
                                       GLOBAL const real *arrays, GLOBAL const real *settings,
                                       STATE real *room, LOCAL real *lines)
@@ -101,6 +102,8 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.y = room;
 	s.base = room + s.nodes;
 	s.trial = room + 2 * s.nodes;
+	s.terms = room + 3 * s.nodes;
+	s.found = room + 4 * s.nodes;
 	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
 	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
 	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;

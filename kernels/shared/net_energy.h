@@ -269,4 +269,9 @@ SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int di
 	return search_explore(s, &move, h, extra);
 }
 
+SHARED_FUNCTION void sweeps_begin(const search_state *s)
+{
+	(void)s;
+}
+
 #endif

@@ -48,6 +48,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	if (turn > 0) {
 		real extra = zero;
 		const real h = CHOOSE(active, p->step, zero);
+		sweeps_begin(s);
 		const real wide = search_wide_sweep(s, turn, h, &extra, p);
 		longest = search_sweep(s, s->wide_colours, s->colour_count, h, &extra);
 		longest = CHOOSE(wide > longest, wide, longest);

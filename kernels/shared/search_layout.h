@@ -14,6 +14,9 @@ enum {
 	SEARCH_ARRAY_COUNT
 };
 
+/* Arrays of nodes that a search works in. */
+#define SEARCH_STATE_COUNT 5
+
 /* Ways a pattern move goes: the iteration's own and those of iterations before. */
 #define SEARCH_WAYS 4
 

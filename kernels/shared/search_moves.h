@@ -13,54 +13,6 @@
 
 #include "dialect.h"
 #include "multilevel.h"
-#include "search_progress.h"
-
-/* What the probes of one direction have come to. */
-typedef struct search_trial {
-	real before, plus, change, step;
-	real next; /* the step to probe */
-} search_trial;
-
-SHARED_FUNCTION search_trial search_trial_begin(void)
-{
-	const real zero = SPREAD(LITERAL(0.0));
-	const search_trial trial = { zero, zero, zero, zero, zero };
-	return trial;
-}
-
-/* Takes the objective at trial->next: 0 in turn 0, then +h, -h and the bottom of the parabola through them.
- * Returns whether there is another turn. One call of the objective in a loop: PoCL compiles each call anew. */
-SHARED_FUNCTION int search_trial_next(search_trial *t, int turn, real h, real sum, real *extra)
-{
-	const real zero = SPREAD(LITERAL(0.0));
-	const real found = sum - t->before;
-	if (turn == 0) {
-		t->before = sum;
-		t->next = h;
-	} else if (turn == 1) {
-		t->plus = found;
-		t->change = found;
-		t->step = h;
-		t->next = -h;
-	} else {
-		const mask better = (t->next != zero) & (found < t->change);
-		t->change = CHOOSE(better, found, t->change);
-		t->step = CHOOSE(better, t->next, t->step);
-	}
-	if (turn != 2)
-		return turn < 3;
-	t->next = parabola_step(h, t->plus, found);
-	const mask tried = t->next != zero;
-	*extra += CHOOSE(tried, SPREAD(LITERAL(1.0)), zero);
-	return ANY(tried);
-}
-
-/* The step to take: the best probed where it is a gain, else 0. */
-SHARED_FUNCTION real search_trial_end(const search_trial *t)
-{
-	const mask gain = t->change < -(SPREAD(GAIN_FLOOR) * t->before);
-	return CHOOSE(gain, t->step, SPREAD(LITERAL(0.0)));
-}
 
 /* Exploratory move along one direction. Returns the length of the step taken. */
 SHARED_FUNCTION real search_explore(const search_state *s, search_move *move, real h, real *extra)

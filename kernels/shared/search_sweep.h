@@ -5,6 +5,8 @@
  *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
  *                      colour_count; wide_colours, those of them, the first, that wait for their turn
  *                      (multilevel.h), and wide_probes, a real, two for each of their directions
+ *   void sweeps_begin(const search_state *)
+ *                      what an iteration's moves need before the first
  *   real direction_explore(const search_state *, int colour, int direction, real h, real *extra)
  *                      an exploratory move along a direction, its parabola's bottom counted in extra;
  *                      returns the length of the step taken
@@ -16,7 +18,8 @@
 #define BATTEN_SHARED_SEARCH_SWEEP_H
 
 #include "dialect.h"
-#include "search_moves.h"
+#include "multilevel.h"
+#include "search_progress.h"
 
 /* The directions of some colours. Returns the longest step this work-item took. */
 SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int end_colour, real h,
