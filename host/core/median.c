@@ -5,98 +5,97 @@
 #include <math.h>
 #include <stdbool.h>
 
-static double middle_of(double a, double b, double c)
-{
-	const double low = a < b ? a : b;
-	const double high = a < b ? b : a;
-	return c < low ? low : c > high ? high : c;
-}
-
-/* What a pivot leaves on either side; what is like it stays. */
+/* The values on either side of a limit: how many are below it, the greatest of those, the least of the
+ * others. */
 struct sides {
-	size_t less, more;
+	double below_most, above_least;
+	size_t below;
 };
 
-/* Into rooms of their own, so that nothing waits for what was written before; from may be one of them. No
- * branch depends on the values. */
-static struct sides part(const double *from, size_t count, double pivot, double *less, double *more)
+INLINED void look_around(const double *list, size_t total, double limit, struct sides *out)
 {
-	struct sides sides = { 0, 0 };
-	for (size_t i = 0; i < count; i++) {
-		const double value = from[i];
-		less[sides.less] = value;
-		more[sides.more] = value;
-		sides.less += value < pivot;
-		sides.more += value > pivot;
+	double most[RUN_LENGTH], least[RUN_LENGTH], count[RUN_LENGTH];
+	RUN_LOOP
+	for (size_t l = 0; l < RUN_LENGTH; l++) {
+		most[l] = -INFINITY;
+		least[l] = INFINITY;
+		count[l] = 0;
 	}
-	return sides;
+	for (size_t i = 0; i + RUN_LENGTH <= total; i += RUN_LENGTH) {
+		RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++) {
+			const double value = list[i + l];
+			const double below = value < limit ? value : -INFINITY;
+			const double above = value < limit ? INFINITY : value;
+			most[l] = below > most[l] ? below : most[l];
+			least[l] = above < least[l] ? above : least[l];
+			count[l] += value < limit ? 1.0 : 0.0;
+		}
+	}
+	struct sides found = { -INFINITY, INFINITY, 0 };
+	for (size_t l = 0; l < RUN_LENGTH; l++) {
+		found.below_most = most[l] > found.below_most ? most[l] : found.below_most;
+		found.above_least = least[l] < found.above_least ? least[l] : found.above_least;
+		found.below += (size_t)count[l];
+	}
+	for (size_t i = total / RUN_LENGTH * RUN_LENGTH; i < total; i++) {
+		const bool below = list[i] < limit;
+		found.below_most = below && list[i] > found.below_most ? list[i] : found.below_most;
+		found.above_least = !below && list[i] < found.above_least ? list[i] : found.above_least;
+		found.below += below;
+	}
+	*out = found;
 }
 
-/* The value that would stand at place in ascending order (Hoare's FIND). */
-static double nth_least(const double *list, size_t total, size_t place, double *room)
+RUNS_FUNCTION(find_sides, look_around,
+              (const double *list, size_t total, double limit, struct sides *out),
+              (list, total, limit, out))
+
+size_t values_below(const double *list, size_t total, double limit)
 {
-	double *less = room;
-	double *more = room + total;
-	const double *from = list;
-	for (size_t count = total;;) {
-		const double pivot = middle_of(from[0], from[count / 2], from[count - 1]);
-		const struct sides sides = part(from, count, pivot, less, more);
-		const size_t not_more = count - sides.more;
-		if (place >= sides.less && place < not_more)
-			return pivot;
-		from = place < sides.less ? less : more;
-		count = place < sides.less ? sides.less : sides.more;
-		place -= place < not_more ? 0 : not_more;
-	}
+	struct sides sides;
+	find_sides(list, total, limit, &sides);
+	return sides.below;
 }
 
-/* The greatest value less than limit, how many there are. */
-struct below {
-	double most;
+/* A value of the list: fewer than place are below it, as many as count say; or more than place up to it. */
+struct bound {
+	double value;
 	size_t count;
 };
 
-/* Four runs at a time: none waits for the one before it. */
-enum { LOOK = 4 * RUN_LENGTH };
-
-INLINED void look_below(const double *list, size_t total, double limit, struct below *out)
+/* Where to look next: where the value sought would be if they lay evenly, now and then half way. */
+static double between(struct bound low, struct bound high, size_t place, unsigned looks)
 {
-	double most[LOOK], count[LOOK];
-	RUN_LOOP
-	for (size_t l = 0; l < LOOK; l++) {
-		most[l] = -INFINITY;
-		count[l] = 0;
-	}
-	for (size_t i = 0; i + LOOK <= total; i += LOOK) {
-		RUN_LOOP
-		for (size_t l = 0; l < LOOK; l++) {
-			const double value = list[i + l] < limit ? list[i + l] : -INFINITY;
-			most[l] = value > most[l] ? value : most[l];
-			count[l] += list[i + l] < limit ? 1.0 : 0.0;
-		}
-	}
-	*out = (struct below){ -INFINITY, 0 };
-	for (size_t l = 0; l < LOOK; l++) {
-		out->most = most[l] > out->most ? most[l] : out->most;
-		out->count += (size_t)count[l];
-	}
-	for (size_t i = total / LOOK * LOOK; i < total; i++) {
-		const bool below = list[i] < limit;
-		out->most = below && list[i] > out->most ? list[i] : out->most;
-		out->count += below;
-	}
+	if (low.value == -INFINITY || high.value == INFINITY)
+		return low.value == -INFINITY ? -INFINITY : INFINITY;
+	const double part = looks % 4 == 3 ? 0.5
+	                                   : ((double)(place - low.count) + 0.5) /
+	                                         (double)(high.count - low.count);
+	const double limit = low.value + (high.value - low.value) * part;
+	return limit > low.value && limit < high.value ? limit : high.value;
 }
 
-RUNS_FUNCTION(find_below, look_below,
-              (const double *list, size_t total, double limit, struct below *out),
-              (list, total, limit, out))
-
-double median_of_least(const double *list, size_t total, size_t count, double *room)
+/* Values are counted, never moved: a look at all of them is a few vectors. Each one brings a bound nearer by
+ * a value at least. */
+double median_of_least(const double *list, size_t total, size_t count)
 {
-	const double upper = nth_least(list, total, count / 2, room);
-	if (count % 2 != 0)
-		return upper;
-	struct below below;
-	find_below(list, total, upper, &below);
-	return 0.5 * (upper + (below.count == count / 2 ? below.most : upper));
+	const size_t place = count / 2;
+	struct bound low = { -INFINITY, 0 }, high = { INFINITY, total };
+	double limit = list[total / 2];
+	for (unsigned looks = 0;; looks++) {
+		struct sides sides;
+		find_sides(list, total, limit, &sides);
+		if (sides.below == place)
+			return count % 2 != 0 ? sides.above_least
+			                      : 0.5 * (sides.below_most + sides.above_least);
+		if (sides.below < place)
+			low = (struct bound){ sides.above_least, sides.below };
+		else
+			high = (struct bound){ sides.below_most, sides.below };
+		/* Those in the middle are all alike. */
+		if (low.value == high.value)
+			return low.value;
+		limit = between(low, high, place, looks);
+	}
 }

@@ -4,8 +4,11 @@
 
 #include <stddef.h>
 
-/* Median of the count > 0 least of total values, none NaN: of an even number the mean of both in the middle.
- * room: 2 total values. */
-double median_of_least(const double *list, size_t total, size_t count, double *room);
+/* How many of total values, none NaN, are below a limit. */
+size_t values_below(const double *list, size_t total, double limit);
+
+/* Median of the count > 0 least of total values, none NaN, those finite: of an even number the mean of both
+ * in the middle. */
+double median_of_least(const double *list, size_t total, size_t count);
 
 #endif

@@ -38,8 +38,7 @@ struct direction {
 struct grid_noise {
 	batten_context *context;
 	struct direction along[2]; /* waterlines, sections */
-	double *magnitude,
-		*room; /* of the larger direction: of the differences of one order; twice that */
+	double *magnitude;         /* of the larger direction: of the differences of one order */
 	size_t most;
 	double *memory;
 };
@@ -81,7 +80,7 @@ static batten_status take_memory(grid_noise *noise)
 		numbers += NUMBERS_A_POINT * d->count;
 	}
 	/* One direction after the other works in the same rooms. */
-	noise->memory = batten_allocate(noise->context, numbers + 5 * noise->most,
+	noise->memory = batten_allocate(noise->context, numbers + 3 * noise->most,
 	                                sizeof *noise->memory);
 	if (!noise->memory)
 		return BATTEN_MEMORY;
@@ -96,7 +95,6 @@ static batten_status take_memory(grid_noise *noise)
 		noise->along[k].run = at + noise->most;
 	}
 	noise->magnitude = at + 2 * noise->most;
-	noise->room = at + 3 * noise->most;
 	return BATTEN_OK;
 }
 
@@ -158,20 +156,14 @@ INLINED void count_runs(const struct direction *d)
 
 RUNS_FUNCTION(take_runs, count_runs, (const struct direction *d), (d))
 
-/* How many differences an order has, and how many of them are less than a limit. */
-struct found {
-	double all, below;
-};
-
 /* The magnitudes of all differences of an order that begin at a place, infinite where there is none. */
 INLINED void take_place(const struct direction *d, const double *weights, size_t order,
-                        size_t first, double limit, double *magnitude, struct found *found)
+                        size_t first, double *magnitude)
 {
-	double all[RUN_LENGTH] = { 0 }, below[RUN_LENGTH] = { 0 };
 	for (size_t line = 0; line < d->stride; line += RUN_LENGTH) {
 		const double *value = d->value_m + first * d->stride + line;
 		const double *run = d->run + (first + order) * d->stride + line;
-		double sum[RUN_LENGTH] = { 0 };
+		double sum[RUN_LENGTH] = { 0 }, size[RUN_LENGTH];
 		for (size_t i = 0; i <= order; i++)
 			RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++)
@@ -179,58 +171,46 @@ INLINED void take_place(const struct direction *d, const double *weights, size_t
 		/* Only points closer than their own rounding give what is not finite. */
 		RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++) {
-			const double there = run[l] > (double)order ? 1.0 : 0.0;
-			const double finite = sum[l] - sum[l] == 0.0 ? there : 0.0;
-			const double size = finite > 0 ? fabs(sum[l]) : INFINITY;
-			magnitude[line + l] = size;
-			all[l] += finite;
-			below[l] += size < limit ? 1.0 : 0.0;
+			const double there = run[l] > (double)order ? fabs(sum[l]) : INFINITY;
+			size[l] = there < INFINITY ? there : INFINITY;
 		}
-	}
-	for (size_t l = 0; l < RUN_LENGTH; l++) {
-		found->all += all[l];
-		found->below += below[l];
+		RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++)
+			magnitude[line + l] = size[l];
 	}
 }
 
-INLINED void take_places(const struct direction *d, size_t order, double limit, double *magnitude,
-                         struct found *found)
+INLINED void take_places(const struct direction *d, size_t order, double *magnitude)
 {
 	const double *weights = weights_of(d, order);
-	struct found here = { 0, 0 };
 	for (size_t first = 0; first + order < d->count; first++)
-		take_place(d, weights + first * (order + 1), order, first, limit,
-		           magnitude + first * d->stride, &here);
-	*found = here;
+		take_place(d, weights + first * (order + 1), order, first, magnitude + first * d->stride);
 }
 
 /* An order the compiler knows is a sum without a loop. */
-INLINED void take_order(const struct direction *d, size_t order, double limit, double *magnitude,
-                        struct found *found)
+INLINED void take_order(const struct direction *d, size_t order, double *magnitude)
 {
 	_Static_assert(NOISE_LEAST_ORDER == 4 && NOISE_MOST_ORDER == 8, "the orders below");
 	switch (order) {
 	case 4:
-		take_places(d, 4, limit, magnitude, found);
+		take_places(d, 4, magnitude);
 		break;
 	case 5:
-		take_places(d, 5, limit, magnitude, found);
+		take_places(d, 5, magnitude);
 		break;
 	case 6:
-		take_places(d, 6, limit, magnitude, found);
+		take_places(d, 6, magnitude);
 		break;
 	case 7:
-		take_places(d, 7, limit, magnitude, found);
+		take_places(d, 7, magnitude);
 		break;
 	default:
-		take_places(d, 8, limit, magnitude, found);
+		take_places(d, 8, magnitude);
 	}
 }
 
 RUNS_FUNCTION(take_differences, take_order,
-              (const struct direction *d, size_t order, double limit, double *magnitude,
-               struct found *found),
-              (d, order, limit, magnitude, found))
+              (const struct direction *d, size_t order, double *magnitude), (d, order, magnitude))
 
 /* The least scale over the orders. On faired hulls it is most often that of order 5, then 4; of the others a
  * count then tells that their median is not less. */
@@ -243,15 +223,15 @@ static double least_scale(const grid_noise *noise, const struct direction *d)
 	take_runs(d);
 	for (size_t o = 0; o < sizeof orders / sizeof orders[0]; o++) {
 		const size_t order = orders[o];
-		struct found found;
 		if (d->count <= order)
 			continue;
-		take_differences(d, order, least, noise->magnitude, &found);
-		const size_t count = (size_t)found.all;
-		if (count < NOISE_LEAST_SAMPLES || (size_t)found.below < (count + 1) / 2)
+		const size_t room = (d->count - order) * d->stride;
+		take_differences(d, order, noise->magnitude);
+		const size_t count = values_below(noise->magnitude, room, INFINITY);
+		if (count < NOISE_LEAST_SAMPLES ||
+		    values_below(noise->magnitude, room, least) < (count + 1) / 2)
 			continue;
-		least = fmin(least, median_of_least(noise->magnitude, (d->count - order) * d->stride, count,
-		                                    noise->room));
+		least = fmin(least, median_of_least(noise->magnitude, room, count));
 	}
 	return least / NOISE_NORMAL_MEDIAN;
 }

@@ -69,7 +69,7 @@ static batten_status take_lines(const batten_hull *hull, bool waterlines, size_t
 
 /* The least scale over the orders; infinite without enough samples of any order. */
 static batten_status measure_direction(const batten_hull *hull, bool waterlines, double *memory,
-                                       size_t room, double *out)
+                                       double *out)
 {
 	double least = INFINITY;
 	batten_status status = BATTEN_OK;
@@ -78,8 +78,7 @@ static batten_status measure_direction(const batten_hull *hull, bool waterlines,
 		struct samples samples = { .magnitude = memory };
 		status = take_lines(hull, waterlines, order, &samples);
 		if (status == BATTEN_OK && samples.count >= NOISE_LEAST_SAMPLES)
-			least = fmin(least,
-			             median_of_least(memory, samples.count, samples.count, memory + room));
+			least = fmin(least, median_of_least(memory, samples.count, samples.count));
 	}
 	*out = least / NOISE_NORMAL_MEDIAN;
 	return status;
@@ -90,12 +89,12 @@ static batten_status measure_both(batten_context *context, const batten_hull *hu
 	/* at most one difference begins at a point; a knuckle that is a point is in two pieces */
 	const size_t most = hull_node_count(hull) + hull->end_count + hull->knuckle_count +
 	                    hull->profile_count;
-	double *memory = batten_allocate(context, most, 3 * sizeof *memory);
+	double *memory = batten_allocate(context, most, sizeof *memory);
 	if (!memory)
 		return BATTEN_MEMORY;
-	batten_status status = measure_direction(hull, true, memory, most, &along[0]);
+	batten_status status = measure_direction(hull, true, memory, &along[0]);
 	if (status == BATTEN_OK)
-		status = measure_direction(hull, false, memory, most, &along[1]);
+		status = measure_direction(hull, false, memory, &along[1]);
 	batten_release(context, memory);
 	return status;
 }
