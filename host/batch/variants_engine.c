@@ -65,9 +65,11 @@ size_t variants_engine_block(const batch_engine *engine, const variants_plan *pl
 	return (groups ? groups : 1) * engine->recipe.lanes;
 }
 
-/* Host memory and device buffers of one launch. */
+/* Host memory and device buffers of one launch. A processor works in the memory of the engine itself: y and
+ * out; the kernel's vectors want it to begin at a multiple of their size. */
 typedef struct block {
 	double *asked, *y, *out;
+	bool direct;
 	device_buffer *shape_on, *lists_on, *tables_on, *asked_on, *y_on, *out_on, *room_on;
 	size_t groups, lanes;
 	size_t asked_size, y_size, out_size; /* numbers of one group */
@@ -81,12 +83,18 @@ static void block_release(const batch_engine *engine, block *b)
 	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
 		device_buffer_destroy(buffers[i]);
 	batten_release(engine->context, b->asked);
-	batten_release(engine->context, b->y);
-	batten_release(engine->context, b->out);
 }
 
-static batten_status block_allocate(const batch_engine *engine, const variants_plan *plan,
-                                    size_t count, block *b)
+enum { VECTOR_BYTES = 128 };
+
+static double *next_vector(void *from)
+{
+	const uintptr_t at = (uintptr_t)from;
+	return (double *)((char *)from + (VECTOR_BYTES - at % VECTOR_BYTES) % VECTOR_BYTES);
+}
+
+static batten_status block_allocate(batch_engine *engine, const variants_plan *plan, size_t count,
+                                    block *b)
 {
 	batten_context *context = engine->context;
 	b->lanes = engine->recipe.lanes;
@@ -94,25 +102,50 @@ static batten_status block_allocate(const batch_engine *engine, const variants_p
 	b->asked_size = VARIANTS_ASK_COUNT * b->lanes;
 	b->y_size = variants_plan_nodes(plan) * b->lanes;
 	b->out_size = variants_plan_outcome(plan) * b->lanes;
+	b->direct = batch_engine_device(engine)->is_cpu && !engine->copies;
 	b->asked = batten_allocate(context, b->groups, b->asked_size * sizeof(double));
-	b->y = batten_allocate(context, b->groups, b->y_size * sizeof(double));
-	b->out = batten_allocate(context, b->groups, b->out_size * sizeof(double));
-	return b->asked && b->y && b->out ? BATTEN_OK : BATTEN_MEMORY;
+	void *memory = batch_engine_memory(
+		engine, 1, b->groups * (b->y_size + b->out_size) * sizeof(double) + 2 * VECTOR_BYTES);
+	if (!b->asked || !memory)
+		return BATTEN_MEMORY;
+	b->y = next_vector(memory);
+	b->out = next_vector(b->y + b->groups * b->y_size);
+	return BATTEN_OK;
 }
 
 static batten_status block_upload(const batch_engine *engine, const variants_plan *plan, block *b)
 {
 	const bool global = room_is_global(plan, &engine->recipe, batch_engine_device(engine));
+	const size_t y_bytes = b->groups * b->y_size * sizeof(double);
+	const size_t out_bytes = b->groups * b->out_size * sizeof(double);
 	const batch_engine_upload uploads[] = {
 		{ &b->shape_on, sizeof b->shape, b->shape },
 		{ &b->lists_on, plan->list_count * sizeof *plan->lists, plan->lists },
 		{ &b->tables_on, plan->table_count * sizeof *plan->tables, plan->tables },
 		{ &b->asked_on, b->groups * b->asked_size * sizeof(double), b->asked },
-		{ &b->y_on, b->groups * b->y_size * sizeof(double), plan->y_m ? b->y : NULL },
-		{ &b->out_on, b->groups * b->out_size * sizeof(double), NULL },
+		{ &b->y_on, b->direct ? 0 : y_bytes, plan->y_m ? b->y : NULL },
+		{ &b->out_on, b->direct ? 0 : out_bytes, NULL },
 		{ &b->room_on, global ? room_bytes(plan, &engine->recipe) * b->groups : 0, NULL },
 	};
-	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
+	batten_status status = batch_engine_upload_all(engine, uploads,
+	                                               sizeof uploads / sizeof uploads[0]);
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(engine->session, y_bytes, b->y, &b->y_on);
+	if (status == BATTEN_OK && b->direct)
+		status = device_buffer_wrap(engine->session, out_bytes, b->out, &b->out_on);
+	return status;
+}
+
+static batten_status block_fetch(const variants_plan *plan, block *b)
+{
+	device_buffer *const direct[] = { b->y_on, b->out_on };
+	if (b->direct)
+		return device_buffers_settle(direct, sizeof direct / sizeof direct[0]);
+	batten_status status = device_buffer_read(b->out_on, b->groups * b->out_size * sizeof(double),
+	                                          b->out);
+	if (status == BATTEN_OK && plan->found_y_m)
+		status = device_buffer_read(b->y_on, b->groups * b->y_size * sizeof(double), b->y);
+	return status;
 }
 
 static batten_status block_launch(const batch_engine *engine, const variants_plan *plan, block *b)
@@ -126,14 +159,10 @@ static batten_status block_launch(const batch_engine *engine, const variants_pla
 		{ .buffer = b->out_on },
 		{ .buffer = b->room_on, .size = b->room_on ? 0 : room_bytes(plan, &engine->recipe) },
 	};
-	batten_status status = device_launch(engine->session, engine->kernel, arguments,
-	                                     sizeof arguments / sizeof arguments[0], b->groups,
-	                                     engine->recipe.work_group);
-	if (status == BATTEN_OK)
-		status = device_buffer_read(b->out_on, b->groups * b->out_size * sizeof(double), b->out);
-	if (status == BATTEN_OK && plan->found_y_m)
-		status = device_buffer_read(b->y_on, b->groups * b->y_size * sizeof(double), b->y);
-	return status;
+	const batten_status status = device_launch(engine->session, engine->kernel, arguments,
+	                                           sizeof arguments / sizeof arguments[0], b->groups,
+	                                           engine->recipe.work_group);
+	return status == BATTEN_OK ? block_fetch(plan, b) : status;
 }
 
 /* Rows in one launch, of at most so many turns each (0: however many). */

@@ -2,6 +2,7 @@
 #include "variation/measure.h"
 
 #include "batch/variants_batch.h"
+#include "core/runs.h"
 #include "hydrostatics/offsets_tables.h"
 #include "variation/targets.h"
 
@@ -17,8 +18,9 @@ struct batch {
 	measure_task task;
 	const variation_parent *ready;
 	variants_plan plan;
-	double *asked, *y, *outcomes; /* of a piece */
-	size_t *singly;               /* rows of a piece that the kernel leaves to the host */
+	double *asked, *y, *outcomes; /* of a piece; y: the caller's memory, or the room */
+	double *room;
+	size_t *singly; /* rows of a piece that the kernel leaves to the host */
 	size_t singly_count, singly_total;
 	size_t *far; /* rows of a piece that are out of reach, by their numbers in it */
 	size_t far_count;
@@ -28,15 +30,26 @@ struct batch {
  * Rows
  * --------------------------------------------------------------------------------------------- */
 
-/* Half-breadths of the device as hulls have them: below 0 is outside. */
-static void take_offsets(const batten_hull *parent, const double *found, double *y, uint8_t *nodes)
+INLINED void take_nodes(size_t count, double *restrict y, const uint8_t *restrict parent,
+                        uint8_t *restrict nodes)
 {
-	for (size_t n = 0; n < hull_node_count(parent) && y; n++)
-		y[n] = found[n] > 0 ? found[n] : 0;
-	for (size_t n = 0; n < hull_node_count(parent) && nodes; n++)
-		nodes[n] = found[n] < 0                              ? BATTEN_NODE_OUTSIDE
-		           : parent->nodes[n] == BATTEN_NODE_UNKNOWN ? BATTEN_NODE_UNKNOWN
-		                                                     : BATTEN_NODE_GIVEN;
+	for (size_t n = 0; n < count && nodes; n++) {
+		const uint8_t inside = parent[n] == BATTEN_NODE_UNKNOWN ? BATTEN_NODE_UNKNOWN
+		                                                        : BATTEN_NODE_GIVEN;
+		nodes[n] = y[n] < 0 ? BATTEN_NODE_OUTSIDE : inside;
+	}
+	for (size_t n = 0; n < count; n++)
+		y[n] = y[n] > 0 ? y[n] : 0;
+}
+
+RUNS_FUNCTION(take_all, take_nodes,
+              (size_t count, double *y, const uint8_t *parent, uint8_t *nodes),
+              (count, y, parent, nodes))
+
+/* Half-breadths of the device, below 0 outside, become those of a hull in their place. nodes may be NULL. */
+static void take_offsets(const batten_hull *parent, double *y, uint8_t *nodes)
+{
+	take_all(hull_node_count(parent), y, parent->nodes, nodes);
 }
 
 /* The variant as a hull: what devices take keeps the parent's table and has no points off it. */
@@ -45,7 +58,8 @@ static batten_status make_hull(const measure_task *task, const double *found, ba
 	batten_hull *hull = NULL;
 	batten_status status = batten_hull_clone(task->context, task->parent, &hull);
 	if (status == BATTEN_OK) {
-		take_offsets(task->parent, found, hull->y_m, hull->nodes);
+		memcpy(hull->y_m, found, task->nodes * sizeof *found);
+		take_offsets(task->parent, hull->y_m, hull->nodes);
 		status = variation_mark_source(hull);
 	}
 	if (status == BATTEN_OK)
@@ -60,15 +74,16 @@ static batten_status keep(struct batch *b, size_t which, size_t i)
 	const batten_variants *v = b->task.v;
 	const double *outcome = b->outcomes + i * variants_plan_outcome(&b->plan);
 	/* There are none where neither offsets nor hulls are asked for. */
-	const double *found = b->y ? b->y + i * b->task.nodes : NULL;
-	if (found && (v->y_m || v->nodes))
-		take_offsets(b->task.parent, found, v->y_m ? v->y_m + which * b->task.nodes : NULL,
-		             v->nodes ? v->nodes + which * b->task.nodes : NULL);
+	double *found = b->y ? b->y + i * b->task.nodes : NULL;
 	if (v->out)
 		offsets_tables_take(b->task.parent, &b->task.hydrostatics, b->task.draft_count,
 		                    v->drafts_m ? v->drafts_m : &b->task.parent->draft_m, outcome,
 		                    measure_forms_of(&b->task, which));
-	return found && v->hulls ? make_hull(&b->task, found, &v->hulls[which]) : BATTEN_OK;
+	const batten_status status = found && v->hulls ? make_hull(&b->task, found, &v->hulls[which])
+	                                               : BATTEN_OK;
+	if (found)
+		take_offsets(b->task.parent, found, v->nodes ? v->nodes + which * b->task.nodes : NULL);
+	return status;
 }
 
 /* What batten_hull_vary() would tell of a row. */
@@ -195,6 +210,7 @@ static batten_status run_piece(struct batch *b, size_t first, size_t count, batt
 		ask(b, first + i, b->asked + i * VARIANTS_ASK_COUNT);
 	b->plan.count = count;
 	b->plan.asked = b->asked;
+	b->y = b->task.v->y_m ? b->task.v->y_m + first * b->task.nodes : b->room;
 	b->plan.found_y_m = b->y;
 	b->plan.out = b->outcomes;
 	b->singly_count = b->far_count = 0;
@@ -228,15 +244,15 @@ static batten_status make_plan(struct batch *b, size_t piece)
 	b->plan.device = task->batch.device;
 	b->plan.lanes = task->batch.lanes;
 	b->plan.work_group = task->batch.work_group;
-	const bool kept = v->y_m || v->nodes || v->hulls;
+	const bool apart = !v->y_m && (v->nodes || v->hulls);
 	const size_t outcome = variants_plan_outcome(&b->plan) * sizeof(double);
 	b->asked = batten_allocate(task->context, piece, VARIANTS_ASK_COUNT * sizeof(double));
 	b->outcomes = batten_allocate(task->context, piece, outcome);
 	b->singly = batten_allocate(task->context, piece, sizeof *b->singly);
 	b->far = batten_allocate(task->context, piece, sizeof *b->far);
-	b->y = kept ? batten_allocate(task->context, piece, task->nodes * sizeof(double)) : NULL;
-	return b->asked && b->outcomes && b->singly && b->far && (!kept || b->y) ? BATTEN_OK
-	                                                                         : BATTEN_MEMORY;
+	b->room = apart ? batten_allocate(task->context, piece, task->nodes * sizeof(double)) : NULL;
+	return b->asked && b->outcomes && b->singly && b->far && (!apart || b->room) ? BATTEN_OK
+	                                                                             : BATTEN_MEMORY;
 }
 
 /* The whole batch on the device, piece by piece. *singly gets the rows that the host took. */
@@ -252,7 +268,7 @@ static batten_status run_on_device(const measure_task *task, const variation_par
 	batten_release(task->context, b.outcomes);
 	batten_release(task->context, b.singly);
 	batten_release(task->context, b.far);
-	batten_release(task->context, b.y);
+	batten_release(task->context, b.room);
 	variants_plan_destroy(&b.plan);
 	*singly = b.singly_total;
 	return status;
