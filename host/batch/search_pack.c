@@ -1,6 +1,7 @@
 #include "batch/search_pack.h"
 
 #include "batch/search_result.h"
+#include "core/runs.h"
 
 #include <math.h>
 #include <string.h>
@@ -65,7 +66,7 @@ static bool has_term(const search_plan *plan, const batten_search_problem *probl
 	return true;
 }
 
-static double clamp(double value, double lower, double upper)
+INLINED double clamp(double value, double lower, double upper)
 {
 	return value < lower ? lower : value > upper ? upper : value;
 }
@@ -139,17 +140,44 @@ void search_pack(const search_plan *plan, const batten_search_problem *problems,
 	    plan->penalties ? plan->penalties[which] : 0.0);
 }
 
-double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,
-                          size_t node, double found)
+INLINED void end_each(size_t count, bool rounds, const double *restrict start_m,
+                      const double *restrict lower_m, const double *restrict upper_m,
+                      double *restrict y_m)
 {
-	if (!on_hull(problem, node))
-		return problem->start_m[node];
-	const double lower = problem->lower_m[node];
-	const double upper = problem->upper_m[node];
-	const double start = start_of(problem, node);
-	if (plan->options.precision == BATTEN_F32 && found == (double)(float)start)
-		return start;
-	return clamp(found, lower, upper);
+	for (size_t n = 0; n < count; n++) {
+		const double lower = lower_m[n], upper = upper_m[n], found = y_m[n];
+		const double start = clamp(start_m[n], lower, upper);
+		const double end = clamp(found, lower, upper);
+		const double moved = rounds ? found - (double)(float)start : 1.0;
+		y_m[n] = moved == 0.0 ? start : end;
+	}
+}
+
+RUNS_FUNCTION(end_nodes, end_each,
+              (size_t count, bool rounds, const double *start_m, const double *lower_m,
+               const double *upper_m, double *y_m),
+              (count, rounds, start_m, lower_m, upper_m, y_m))
+
+INLINED void restore_each(size_t count, const uint8_t *restrict nodes,
+                          const double *restrict start_m, double *restrict y_m)
+{
+	for (size_t n = 0; n < count; n++) {
+		const double start = start_m[n], end = y_m[n];
+		y_m[n] = nodes[n] == BATTEN_NODE_OUTSIDE ? start : end;
+	}
+}
+
+RUNS_FUNCTION(restore_outside, restore_each,
+              (size_t count, const uint8_t *nodes, const double *start_m, double *y_m),
+              (count, nodes, start_m, y_m))
+
+void search_take_ends(const search_plan *plan, const batten_search_problem *problem, double *y_m)
+{
+	const size_t nodes = plan->station_count * plan->waterline_count;
+	end_nodes(nodes, plan->options.precision == BATTEN_F32, problem->start_m, problem->lower_m,
+	          problem->upper_m, y_m);
+	if (problem->nodes)
+		restore_outside(nodes, problem->nodes, problem->start_m, y_m);
 }
 
 void search_unpack(const search_plan *plan, const batten_search_problem *problem, size_t lane,
@@ -160,8 +188,9 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 		for (size_t i = 0; i < plan->station_count; i++) {
 			const size_t node = k * plan->station_count + i;
 			const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
-			y_m[node] = search_end_of_node(plan, problem, node, get(plan, y, place * lanes + lane));
+			y_m[node] = get(plan, y, place * lanes + lane);
 		}
+	search_take_ends(plan, problem, y_m);
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
 		values[v] = get(plan, outcome, v * lanes + lane);

@@ -12,9 +12,9 @@ size_t search_scalar_size(const search_plan *plan);
 size_t search_stencil_count(const search_plan *plan);
 void search_pack_stencils(const search_plan *plan, void *stencils);
 
-/* Where a search left a node. What did not move comes back as it went in, not rounded to f32. */
-double search_end_of_node(const search_plan *plan, const batten_search_problem *problem,
-                          size_t node, double found);
+/* What a search found at its nodes becomes, in its place, where it left them: within the bounds, and what did
+ * not move as it went in, not rounded to f32. */
+void search_take_ends(const search_plan *plan, const batten_search_problem *problem, double *y_m);
 
 /* A box as a search with an interior penalty takes it: its bounds rounded inwards, so that what is inside
  * in f32 is inside in f64. false: no number of the precision is inside, and the node is held. */

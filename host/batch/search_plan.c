@@ -13,8 +13,6 @@
 #include "shared/grid_energy.h"
 #include "shared/multilevel.h"
 
-/* Larger ones would make the objective overflow. */
-#define WEIGHT_LIMIT 1e100
 enum { COORDINATE_LIMIT = 4096, F32_NODE_LIMIT = 1 << 22 };
 
 static void lay_out_direction(const double *at, size_t count, double *stencil, double *cell)
@@ -331,51 +329,6 @@ void search_plan_destroy(search_plan *plan)
 	batten_release(context, plan->cell_z);
 	batten_release(context, plan->centres);
 	batten_release(context, plan);
-}
-
-/* Whether a number keeps its worth in the precision, its fourth power with it. */
-static bool is_length(batten_precision precision, double length)
-{
-	return precision == BATTEN_F64 ? length >= 1e-60 && length <= 1e60
-	                               : length >= 1e-7 && length <= 1e7;
-}
-
-static bool is_weight(batten_precision precision, double weight)
-{
-	const double most = precision == BATTEN_F64 ? WEIGHT_LIMIT : 1e20;
-	return weight == 0.0 || (weight >= 1.0 / most && weight <= most);
-}
-
-const char *search_weights_fault(batten_precision precision, double w1, double w2,
-                                 double half_beam_m)
-{
-	if (!is_weight(precision, w1) || !is_weight(precision, w2) || w1 + w2 == 0.0)
-		return "weights: 0 or 1e-100 to 1e100 (1e-20 to 1e20 in f32), not both 0";
-	if (!is_length(precision, half_beam_m))
-		return "half-beam: 1e-60 to 1e60 m (1e-7 to 1e7 m in f32) is expected";
-	return NULL;
-}
-
-const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem)
-{
-	const char *fault = search_weights_fault(plan->options.precision, problem->w1, problem->w2,
-	                                         problem->half_beam_m);
-	if (fault)
-		return fault;
-	const size_t nodes = plan->station_count * plan->waterline_count;
-	for (size_t n = 0; n < nodes; n++) {
-		if (problem->nodes && problem->nodes[n] == BATTEN_NODE_OUTSIDE)
-			continue;
-		if (!isfinite(problem->start_m[n]) || !isfinite(problem->target_m[n]))
-			return "a start or target value is not finite";
-		if (!isfinite(problem->lower_m[n]) || !isfinite(problem->upper_m[n]) ||
-		    problem->lower_m[n] > problem->upper_m[n])
-			return "a lower bound is above its upper bound or not finite";
-		if (problem->closeness_weight &&
-		    !(problem->closeness_weight[n] >= 0.0 && isfinite(problem->closeness_weight[n])))
-			return "a closeness weight is negative or not finite";
-	}
-	return NULL;
 }
 
 int search_plan_wide_levels(const search_plan *plan)

@@ -2,7 +2,8 @@
  * compiled for processors with a multiply-add of their own too. The bits are the same either way.
  *
  * A loop becomes vectors where it has no branch and where no pointer is read again after a store: structs are
- * copied first, what is found goes into arrays of the function's own. */
+ * copied first, what is found goes into arrays of the function's own. Bytes beside numbers, such as the kinds of
+ * nodes, do so in loops of at least 64 only, where what is chosen by them is read whatever they are. */
 #ifndef BATTEN_CORE_RUNS_H
 #define BATTEN_CORE_RUNS_H
 
@@ -40,7 +41,8 @@ INLINED size_t run_after(size_t first, size_t end)
 #if defined(__x86_64__)
 #define RUNS_FUNCTION(name, body, declare, call)                                                   \
 	RUNS_PLAIN                                                                                     \
-	__attribute__((target("avx512f,avx512dq,avx512vl,fma"))) static void name##_wide declare       \
+	__attribute__((                                                                                \
+		target("avx512f,avx512bw,avx512dq,avx512vl,fma"))) static void name##_wide declare         \
 	{                                                                                              \
 		body call;                                                                                 \
 	}                                                                                              \
@@ -50,7 +52,8 @@ INLINED size_t run_after(size_t first, size_t end)
 	}                                                                                              \
 	static void name declare                                                                       \
 	{                                                                                              \
-		if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))              \
+		if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&            \
+		    __builtin_cpu_supports("avx512vl"))                                                    \
 			name##_wide call;                                                                      \
 		else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))                  \
 			name##_fused call;                                                                     \

@@ -1,5 +1,7 @@
 #include "fairing/box.h"
 
+#include "core/runs.h"
+
 #include <math.h>
 
 /* A bound and what set it, for the message when two exclude each other. */
@@ -20,9 +22,10 @@ static void reduce(bound *upper, double value, const char *cause)
 		*upper = (bound){ value, cause };
 }
 
-static batten_status bound_node(batten_context *context, const batten_hull *hull,
-                                const batten_fair_options *options, double half_beam,
-                                double distance, size_t node, fairing_box *box)
+/* Says which bounds of a node exclude each other. */
+static batten_status explain(batten_context *context, const batten_hull *hull,
+                             const batten_fair_options *options, double half_beam, double distance,
+                             size_t node)
 {
 	const double y = hull->y_m[node];
 	bound lower = { 0.0, "0" };
@@ -33,28 +36,49 @@ static batten_status bound_node(batten_context *context, const batten_hull *hull
 		raise(&lower, options->lower->y_m[node], "the lower offsets");
 	if (options->upper && options->upper->nodes[node] == BATTEN_NODE_GIVEN)
 		reduce(&upper, options->upper->y_m[node], "the upper offsets");
-	if (lower.value > upper.value)
-		return batten_fail(
-			context, BATTEN_INPUT,
-			"x = %g m, z = %g m: %s ask for at least %g m and %s for at most %g m: no "
-			"half-breadth satisfies both",
-			hull->x_m[node % hull->station_count], hull->z_m[node / hull->station_count],
-			lower.cause, lower.value, upper.cause, upper.value);
-	box->lower_m[node] = lower.value;
-	box->upper_m[node] = upper.value;
-	return BATTEN_OK;
+	return batten_fail(context, BATTEN_INPUT,
+	                   "x = %g m, z = %g m: %s ask for at least %g m and %s for at most %g m: no "
+	                   "half-breadth satisfies both",
+	                   hull->x_m[node % hull->station_count], hull->z_m[node / hull->station_count],
+	                   lower.cause, lower.value, upper.cause, upper.value);
 }
 
-static bool is_variable(const batten_hull *hull, size_t node)
+/* The bounds that every hull has. A '?' that fills to 0 lies on the profile, as a 0 does: neither moves. */
+INLINED void bound_each(size_t count, const uint8_t *restrict nodes, const double *restrict y_m,
+                        double distance, double most, double *restrict lower_m,
+                        double *restrict upper_m, double *restrict weight)
 {
-	/* A '?' that fills to 0 lies on the profile, as a 0 does. */
-	return hull->nodes[node] != BATTEN_NODE_OUTSIDE && hull->y_m[node] > 0.0;
+	for (size_t n = 0; n < count; n++) {
+		const double y = y_m[n];
+		const double moves = nodes[n] != BATTEN_NODE_OUTSIDE ? y : 0.0;
+		const double lower = y - distance > 0.0 ? y - distance : 0.0;
+		const double upper = y + distance < most ? y + distance : most;
+		lower_m[n] = moves > 0.0 ? lower : y;
+		upper_m[n] = moves > 0.0 ? upper : y;
+	}
+	for (size_t n = 0; n < count; n++)
+		weight[n] = nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
 }
 
-static void hold(fairing_box *box, const batten_hull *hull, size_t node)
+RUNS_FUNCTION(bound_nodes, bound_each,
+              (size_t count, const uint8_t *nodes, const double *y_m, double distance, double most,
+               double *lower_m, double *upper_m, double *weight),
+              (count, nodes, y_m, distance, most, lower_m, upper_m, weight))
+
+/* Those of the options. */
+static void tighten(const batten_hull *hull, const batten_fair_options *options,
+                    const uint8_t *locked, const fairing_box *box)
 {
-	box->lower_m[node] = hull->y_m[node];
-	box->upper_m[node] = hull->y_m[node];
+	const batten_hull *lower = options->lower, *upper = options->upper;
+	for (size_t n = 0; n < hull_node_count(hull); n++) {
+		const bool moves = hull->nodes[n] != BATTEN_NODE_OUTSIDE && hull->y_m[n] > 0.0;
+		if (moves && lower && lower->nodes[n] == BATTEN_NODE_GIVEN)
+			box->lower_m[n] = fmax(box->lower_m[n], lower->y_m[n]);
+		if (moves && upper && upper->nodes[n] == BATTEN_NODE_GIVEN)
+			box->upper_m[n] = fmin(box->upper_m[n], upper->y_m[n]);
+		if (locked && locked[n])
+			box->lower_m[n] = box->upper_m[n] = hull->y_m[n];
+	}
 }
 
 static batten_status apply_lock(batten_context *context, const batten_hull *hull,
@@ -123,14 +147,22 @@ batten_status fairing_box_fill(batten_context *context, const batten_hull *smoot
 	batten_status status = check_table(context, smoothed, options->lower, "lower");
 	if (status == BATTEN_OK)
 		status = check_table(context, smoothed, options->upper, "upper");
-	for (size_t n = 0; n < nodes && status == BATTEN_OK; n++) {
-		hold(box, smoothed, n);
-		box->closeness_weight[n] = smoothed->nodes[n] == BATTEN_NODE_GIVEN ? 1.0 : 0.0;
-		if (is_variable(smoothed, n) && !(locked && locked[n]))
-			status = bound_node(context, smoothed, options, half_beam, distance_m, n, box);
+	if (status != BATTEN_OK)
+		return status;
+	bound_nodes(nodes, smoothed->nodes, smoothed->y_m, FAIRING_LIMIT_MARGIN * distance_m,
+	            FAIRING_HALF_BEAM_LIMIT * half_beam, box->lower_m, box->upper_m,
+	            box->closeness_weight);
+	if (options->lower || options->upper || locked)
+		tighten(smoothed, options, locked, box);
+	size_t excluded = 0;
+	for (size_t n = 0; n < nodes; n++) {
 		box->variable_count += box->lower_m[n] < box->upper_m[n];
+		excluded += box->lower_m[n] > box->upper_m[n];
 	}
-	return status;
+	for (size_t n = 0; n < nodes && excluded > 0; n++)
+		if (box->lower_m[n] > box->upper_m[n])
+			return explain(context, smoothed, options, half_beam, distance_m, n);
+	return BATTEN_OK;
 }
 
 batten_status fairing_box_create(batten_context *context, const batten_hull *smoothed,

@@ -1,6 +1,8 @@
 /* The life of a hull, and what the public interface shows of it. */
 #include "hull/hull.h"
 
+#include "core/runs.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -334,13 +336,46 @@ bool hull_same_table(const batten_hull *a, const batten_hull *b)
 	        memcmp(a->z_m, b->z_m, a->waterline_count * sizeof *a->z_m) == 0);
 }
 
+/* Nodes looked at together. */
+enum { LOOK = 64 };
+
 /* Filled '?' nodes do not count: a spline may overshoot the given breadth. */
-double batten_hull_half_beam_m(const batten_hull *hull)
+INLINED void look_widest(size_t count, const uint8_t *restrict nodes, const double *restrict y_m,
+                         double *restrict out)
+{
+	double given[LOOK] = { 0 }, most[RUN_LENGTH] = { 0 };
+	for (size_t first = 0; first < count; first += LOOK) {
+		const size_t here = first + LOOK < count ? LOOK : count - first;
+		for (size_t l = 0; l < here; l++) {
+			const double y = y_m[first + l];
+			given[l] = nodes[first + l] == BATTEN_NODE_GIVEN ? y : 0.0;
+		}
+		/* What is left of the nodes before is looked at twice. */
+		for (size_t r = 0; r < LOOK; r += RUN_LENGTH)
+			RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++)
+			most[l] = given[r + l] > most[l] ? given[r + l] : most[l];
+	}
+	double largest = 0;
+	for (size_t l = 0; l < RUN_LENGTH; l++)
+		largest = most[l] > largest ? most[l] : largest;
+	*out = largest;
+}
+
+RUNS_FUNCTION(find_widest, look_widest,
+              (size_t count, const uint8_t *nodes, const double *y_m, double *out),
+              (count, nodes, y_m, out))
+
+double hull_widest_node_m(size_t count, const uint8_t *nodes, const double *y_m)
 {
 	double largest = 0;
-	for (size_t i = 0; i < hull_node_count(hull); i++)
-		if (hull->nodes[i] == BATTEN_NODE_GIVEN && hull->y_m[i] > largest)
-			largest = hull->y_m[i];
+	find_widest(count, nodes, y_m, &largest);
+	return largest;
+}
+
+double batten_hull_half_beam_m(const batten_hull *hull)
+{
+	double largest = hull_widest_node_m(hull_node_count(hull), hull->nodes, hull->y_m);
 	for (size_t i = 0; i < hull->end_count; i++)
 		if (hull->ends[i].y_m > largest)
 			largest = hull->ends[i].y_m;

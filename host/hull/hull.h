@@ -117,6 +117,9 @@ bool hull_knuckle_between(const batten_hull *hull, bool waterline, size_t line, 
 
 size_t hull_node_count(const batten_hull *hull);
 
+/* The widest node that is given, 0 without one. */
+double hull_widest_node_m(size_t count, const uint8_t *nodes, const double *y_m);
+
 /* Whether both have the same stations and waterlines, to the bit. */
 bool hull_same_table(const batten_hull *a, const batten_hull *b);
 const char *hull_unit_text(hull_unit unit);

@@ -26,17 +26,30 @@ static size_t node_count(const struct task *task)
 	return hull_node_count(task->table);
 }
 
+static const uint8_t *nodes_of(const struct task *task, size_t which)
+{
+	return task->nodes ? task->nodes + which * node_count(task) : task->table->nodes;
+}
+
+static bool is_half_breadth(double y)
+{
+	return (y >= 0) & (y <= HULL_LARGEST_M);
+}
+
 static batten_status check_offsets(const struct task *task, size_t count)
 {
-	const size_t nodes = node_count(task);
-	for (size_t i = 0; i < count * nodes; i++) {
-		const double y = task->y_m[i];
-		if ((task->nodes ? task->nodes[i] : task->table->nodes[i % nodes]) == BATTEN_NODE_OUTSIDE)
-			continue;
-		if (!(y >= 0 && y <= HULL_LARGEST_M))
-			return batten_fail(task->context, BATTEN_USAGE,
-			                   "hull %zu: half-breadth %g m of node %zu, expected 0 to %g",
-			                   i / nodes, y, i % nodes, HULL_LARGEST_M);
+	const size_t all = node_count(task);
+	for (size_t i = 0; i < count; i++) {
+		const uint8_t *nodes = nodes_of(task, i);
+		const double *y = task->y_m + i * all;
+		size_t sound = 0;
+		for (size_t n = 0; n < all; n++)
+			sound += (nodes[n] == BATTEN_NODE_OUTSIDE) | is_half_breadth(y[n]);
+		for (size_t n = 0; n < all && sound < all; n++)
+			if (nodes[n] != BATTEN_NODE_OUTSIDE && !is_half_breadth(y[n]))
+				return batten_fail(task->context, BATTEN_USAGE,
+				                   "hull %zu: half-breadth %g m of node %zu, expected 0 to %g", i,
+				                   y[n], n, HULL_LARGEST_M);
 	}
 	return BATTEN_OK;
 }
@@ -60,15 +73,11 @@ static batten_status measure_one(struct task *task, size_t which)
 	return status;
 }
 
-/* As batten_hull_half_beam_m(): '?' nodes do not count, points off the grid do. */
+/* As batten_hull_half_beam_m(): points off the grid count too. */
 static double half_beam_of(const struct task *task, size_t which)
 {
 	const size_t nodes = node_count(task);
-	const uint8_t *kind = task->nodes ? task->nodes + which * nodes : task->table->nodes;
-	double most = 0;
-	for (size_t n = 0; n < nodes; n++)
-		if (kind[n] == BATTEN_NODE_GIVEN)
-			most = fmax(most, task->y_m[which * nodes + n]);
+	double most = hull_widest_node_m(nodes, nodes_of(task, which), task->y_m + which * nodes);
 	for (size_t i = 0; i < task->table->end_count; i++)
 		most = fmax(most, task->table->ends[i].y_m);
 	return most;

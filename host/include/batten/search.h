@@ -110,7 +110,7 @@ typedef struct batten_run {
 	char warning[256]; /* one line, "" when nothing is to be said */
 } batten_run;
 
-/* Runs count pattern searches (kernels/README.md). y_m is the caller's,
+/* Runs count pattern searches (kernels/README.md). y_m is the caller's, apart from the problems,
  * [count][waterlines][stations]; results [count]; run may be NULL. The result of a search does not
  * depend on the others, on their order or number, nor (when strict) on what ran it.
  * Returns INCOMPLETE when a search was refused or met its limit. Errors: USAGE (among them an
