@@ -86,7 +86,7 @@ static batten_status time_probes(const bench_settings *settings, const wigley_ca
 		                                 cases[i].precision);
 		textbook.options.last_step = 1e-3;
 		value.options.last_step = 1e-9;
-		value.options.iteration_limit = 20;
+		value.options.iteration_limit = 25;
 		bench_row row = make_row(cases[i].name, cases[i].precision);
 		status = pair(settings, &value, &textbook, w, true, &row);
 	}

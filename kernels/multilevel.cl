@@ -39,7 +39,6 @@ static inline void move_begin(const search_state *s, int colour, int direction, 
 	move->width_z = level[SEARCH_LEVEL_WIDTH_Z];
 	move->inverse_x = LITERAL(1.0) / (scalar)level[SEARCH_LEVEL_WIDTH_X];
 	move->inverse_z = LITERAL(1.0) / (scalar)level[SEARCH_LEVEL_WIDTH_Z];
-	hat_keep(s, move);
 }
 
 /* An exploratory move along a hat. Returns the step taken. */
@@ -51,7 +50,7 @@ static inline real hat_explore(const search_state *s, search_move *move, real h,
 	move->step = trial.next;
 	ROLLED
 	for (int turn = 1;; turn++) {
-		const real sum = hat_objective(s, move);
+		const real sum = hat_objective(s, move, turn);
 		if (turn > 3)
 			break; /* the step taken, worked again */
 		if (search_trial_next(&trial, turn, h, sum, extra)) {

@@ -15,12 +15,12 @@ typedef struct direction {
 	single_offset offset;
 } direction;
 
-static scalar objective_after(const search_state *s, direction *d, scalar step)
+static scalar objective_after(const search_state *s, direction *d, scalar step, int turn)
 {
 	if (d->single)
 		return single_objective(s, &d->offset, step);
 	d->move.step = step;
-	return hat_objective(s, &d->move);
+	return hat_objective(s, &d->move, turn);
 }
 
 /* `probed`: the last step that was. */
@@ -32,7 +32,7 @@ static void move_for_good(const search_state *s, direction *d, scalar step, scal
 	}
 	d->move.step = step;
 	if (step != LITERAL(0.0) && step != probed)
-		(void)hat_objective(s, &d->move); /* for its terms */
+		(void)hat_objective(s, &d->move, 4); /* for its terms */
 	hat_end(s, &d->move);
 }
 
@@ -42,14 +42,14 @@ static scalar explore(const search_state *s, direction *d, scalar h, uint64_t *e
 {
 	const scalar before = d->single ? single_objective(s, &d->offset, LITERAL(0.0))
 	                                : hat_objective_before(s, &d->move);
-	const scalar plus = objective_after(s, d, h) - before;
-	const scalar minus = objective_after(s, d, -h) - before;
+	const scalar plus = objective_after(s, d, h, 1) - before;
+	const scalar minus = objective_after(s, d, -h, 2) - before;
 	const scalar bottom = parabola_step(h, plus, minus);
 	scalar step = minus < plus ? -h : h;
 	scalar change = minus < plus ? minus : plus;
 	if (bottom != LITERAL(0.0)) {
 		(*extra)++;
-		const scalar found = objective_after(s, d, bottom) - before;
+		const scalar found = objective_after(s, d, bottom, 3) - before;
 		if (found < change) {
 			step = bottom;
 			change = found;
@@ -79,8 +79,6 @@ static scalar sweep(const reference_multilevel *plan, const search_state *s, int
 			d.move.waterline = plan->centres[2 * n + 1];
 			if (d.single)
 				single_begin(s, d.move.station, d.move.waterline, &d.offset);
-			else
-				hat_keep(s, &d.move);
 			const scalar length = explore(s, &d, h, extra);
 			longest = length > longest ? length : longest;
 		}

@@ -36,21 +36,8 @@ SHARED_FUNCTION int hat_last(int centre, int width, int beside, int count)
 	return centre + width - 1 + beside < count ? centre + width - 1 + beside : count - 1;
 }
 
-SHARED_FUNCTION void hat_keep(const search_state *s, const search_move *move)
-{
-	const int first_k = hat_first(move->waterline, move->width_z, 0);
-	const int last_k = hat_last(move->waterline, move->width_z, 0, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, 0, s->stations);
-	ROLLED
-	for (int i = hat_first(move->station, move->width_x, 0); i <= last_i; i++) {
-		int node = node_of(s, i, first_k);
-		ROLLED
-		for (int k = first_k; k <= last_k; k++, node += s->stride)
-			s->trial[node] = s->y[node];
-	}
-}
-
-SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move)
+/* Moves the nodes under a hat, from y where they are not kept yet. */
+SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move, int kept)
 {
 	const int first_k = hat_first(move->waterline, move->width_z, 0);
 	const int last_k = hat_last(move->waterline, move->width_z, 0, s->waterlines);
@@ -62,8 +49,10 @@ SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move)
 		ROLLED
 		for (int k = first_k; k <= last_k; k++, node += s->stride) {
 			const scalar height = height_x * hat_height(k - move->waterline, move->inverse_z);
-			s->y[node] = step_from(s, s->trial[node], height * move->step, s->lower[node],
-			                       s->upper[node]);
+			const real from = kept ? s->trial[node] : s->y[node];
+			if (!kept)
+				s->trial[node] = from;
+			s->y[node] = step_from(s, from, height * move->step, s->lower[node], s->upper[node]);
 		}
 	}
 }
@@ -146,14 +135,14 @@ SHARED_FUNCTION real hat_objective_before(const search_state *s, const search_mo
 	return sum;
 }
 
-/* The same after its step; the terms into s->found. */
-SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *move)
+/* The same after its step, from turn 1 on; the terms into s->found. */
+SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *move, int turn)
 {
 	const int first_k = hat_first(move->waterline, move->width_z, 1);
 	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
 	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
 	real sum = SPREAD(LITERAL(0.0));
-	hat_place(s, move);
+	hat_place(s, move, turn > 1);
 	ROLLED
 	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++)
 		sum += column_objective(s, i, first_k, last_k, s->found);
@@ -167,7 +156,7 @@ SHARED_FUNCTION void hat_end(const search_state *s, const search_move *move)
 	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
 	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
 	const mask moved = move->step != SPREAD(LITERAL(0.0));
-	hat_place(s, move);
+	hat_place(s, move, 1);
 	if (!ANY(moved))
 		return;
 	ROLLED
