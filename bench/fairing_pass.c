@@ -182,8 +182,7 @@ batten_status bench_fairing_pass(const bench_settings *settings)
 	if (status == BATTEN_OK)
 		status = contest(settings, BATTEN_METHOD_INVERSE, BATTEN_F64, 10000);
 	if (status == BATTEN_OK)
-		status = contest(settings, BATTEN_METHOD_FORWARD_FIT, BATTEN_F64,
-		                 settings->full ? 10000 : 1000);
+		status = contest(settings, BATTEN_METHOD_FORWARD_FIT, BATTEN_F64, 10000);
 	if (status == BATTEN_OK && settings->full)
 		status = contest(settings, BATTEN_METHOD_FORWARD_APPROXIMATION, BATTEN_F32, 10000);
 	if (status == BATTEN_OK)

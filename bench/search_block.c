@@ -106,9 +106,10 @@ static batten_status pair(contest *c, rival *other, size_t hulls, bench_row *row
 {
 	bench_pairs pairs;
 	double share[BENCH_PAIRS] = { 0.0 };
+	double peaks[BENCH_PAIRS] = { 0.0 };
 	batten_status status = BATTEN_OK;
 	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
-		const double peak = bench_peak(row->precision);
+		const double peak = peaks[p] = bench_peak(row->precision);
 		for (int i = 0; i < 2 && status == BATTEN_OK; i++) {
 			const double begun = bench_seconds(c->settings);
 			status = i ? other(c) : run_block(c);
@@ -122,6 +123,8 @@ static batten_status pair(contest *c, rival *other, size_t hulls, bench_row *row
 		return status;
 	bench_pairs_judge(&pairs, 1e6, row);
 	row->percent_of_peak = bench_is_cpu(c->settings) ? bench_median(share) : 0.0;
+	row->bound = row->percent_of_peak > 0.0 ? "multiply-adds" : NULL;
+	row->peak = bench_median(peaks);
 	c->settings->emit(row, c->settings->user);
 	return BATTEN_OK;
 }
@@ -159,6 +162,7 @@ static batten_status run_values(contest *c, bench_row *row)
 		           { NLOPT_PEER_SBPLX, "nlopt_sbplx", "nlopt_sbplx, not there" } };
 	(void)snprintf(row->case_name, sizeof row->case_name, "21x20 w 1e4 gap 1e-4");
 	row->percent_of_peak = 0.0;
+	row->bound = NULL;
 	for (size_t r = 0; r < sizeof rivals / sizeof rivals[0]; r++) {
 		const double stop = (1.0 + 1e-4) * c->ends[0];
 		double begun = bench_seconds(c->settings);
