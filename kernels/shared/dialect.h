@@ -100,8 +100,8 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #if __has_builtin(__builtin_prefetch)
 #undef FETCH
 #undef FETCH_TO_WRITE
-#define FETCH(from) __builtin_prefetch((const void *)(size_t)(from), 0, 2)
-#define FETCH_TO_WRITE(to) __builtin_prefetch((const void *)(size_t)(to), 1, 2)
+#define FETCH(from) __builtin_prefetch((const void *)(size_t)(from), 0, 3)
+#define FETCH_TO_WRITE(to) __builtin_prefetch((const void *)(size_t)(to), 1, 3)
 #endif
 #endif
 #define GLOBAL global
