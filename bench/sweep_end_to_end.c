@@ -130,7 +130,7 @@ static batten_status run(const bench_settings *settings, const struct files *fil
 batten_status bench_sweep_end_to_end(const bench_settings *settings)
 {
 	struct files files;
-	const unsigned count = settings->full ? 20000 : 2048;
+	const unsigned count = settings->full ? 20000 : 8192;
 	batten_status status = make_files(settings->context, &files);
 	if (status == BATTEN_OK)
 		status = run(settings, &files, BATTEN_F64, count);

@@ -148,15 +148,20 @@ void *batten_allocate(batten_context *context, size_t count, size_t size)
 		                  total, limit);
 		return NULL;
 	}
+	/* The heap knows which of its pages are zero already. */
+	const bool zeroed = context->options.allocate == allocate_from_heap;
 	void *memory = NULL;
-	if (fits)
+	if (fits && zeroed)
+		memory = calloc(total ? total : 1, 1);
+	else if (fits)
 		memory = context->options.allocate(total ? total : 1, context->options.allocate_user);
 	if (!memory) {
 		(void)batten_fail(context, BATTEN_MEMORY, "out of memory: %zu times %zu bytes", count,
 		                  size);
 		return NULL;
 	}
-	memset(memory, 0, total ? total : 1);
+	if (!zeroed)
+		memset(memory, 0, total ? total : 1);
 	return memory;
 }
 

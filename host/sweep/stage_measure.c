@@ -10,11 +10,13 @@
 enum { MEASURE_PIECE = 64 };
 
 /* The block's designs, and those of them that lie on the parent's table: their hydrostatics are worked in
- * one batch, the draft of the parent after those of the plan. Which way a design goes depends on it alone:
+ * one batch, at the drafts of the plan and of the parent. Which way a design goes depends on it alone:
  * both agree within rounding, not bit for bit. */
 struct measuring {
 	sweep_block *block;
 	size_t batch_count, batch_drafts;
+	double drafts_m[PLAN_DRAFTS_MOST + 1];
+	size_t own;                 /* which of the drafts is the parent's */
 	size_t *place;              /* of each design in the batch, SIZE_MAX elsewhere */
 	batten_hydrostatics *forms; /* [batch][drafts] */
 };
@@ -82,15 +84,25 @@ static batten_hydrostatics *drafts_of(const sweep_block *block, size_t i)
 	return block->hydrostatics + i * block->plan->draft_count;
 }
 
+/* The drafts of the plan, then that of a hull unless it is one of them. Returns how many. */
+static size_t list_drafts(const sweep_plan *plan, double draft_m, double *drafts_m, size_t *own)
+{
+	memcpy(drafts_m, plan->drafts_m, plan->draft_count * sizeof *drafts_m);
+	drafts_m[plan->draft_count] = draft_m;
+	for (*own = 0; *own < plan->draft_count && drafts_m[*own] != draft_m; ++*own)
+		;
+	return *own < plan->draft_count ? plan->draft_count : plan->draft_count + 1;
+}
+
 /* Hydrostatics are there already. */
 static batten_status measure_batched(measure_room *room, const struct measuring *measuring,
                                      const batten_hull *hull, size_t i, batten_measures *out)
 {
-	const size_t drafts = measuring->batch_drafts - 1;
+	const sweep_block *block = measuring->block;
 	const batten_hydrostatics *forms = measuring->forms +
 	                                   measuring->place[i] * measuring->batch_drafts;
-	memcpy(drafts_of(measuring->block, i), forms, drafts * sizeof *forms);
-	return measures_complete(room, hull, &forms[drafts], out);
+	memcpy(drafts_of(block, i), forms, block->plan->draft_count * sizeof *forms);
+	return measures_complete(room, hull, &forms[measuring->own], out);
 }
 
 static batten_status measure_alone(batten_context *context, measure_room *room,
@@ -100,14 +112,14 @@ static batten_status measure_alone(batten_context *context, measure_room *room,
 	const sweep_plan *plan = measuring->block->plan;
 	double drafts[PLAN_DRAFTS_MOST + 1];
 	batten_hydrostatics forms[PLAN_DRAFTS_MOST + 1];
-	memcpy(drafts, plan->drafts_m, plan->draft_count * sizeof *drafts);
-	drafts[plan->draft_count] = hull->draft_m;
-	const batten_status status = batten_hull_hydrostatics(context, hull, &plan->hydrostatics,
-	                                                      plan->draft_count + 1, drafts, forms);
+	size_t own = 0;
+	const size_t count = list_drafts(plan, hull->draft_m, drafts, &own);
+	const batten_status status = batten_hull_hydrostatics(context, hull, &plan->hydrostatics, count,
+	                                                      drafts, forms);
 	if (status != BATTEN_OK)
 		return status;
 	memcpy(drafts_of(measuring->block, i), forms, plan->draft_count * sizeof *forms);
-	return measures_complete(room, hull, &forms[plan->draft_count], out);
+	return measures_complete(room, hull, &forms[own], out);
 }
 
 static batten_status measure(batten_context *context, measure_room *room,
@@ -204,9 +216,6 @@ static batten_status gather(sweep_machine *machine, const struct measuring *meas
 static batten_status run_batch(sweep_machine *machine, const struct measuring *measuring)
 {
 	const sweep_plan *plan = measuring->block->plan;
-	double drafts[PLAN_DRAFTS_MOST + 1];
-	memcpy(drafts, plan->drafts_m, plan->draft_count * sizeof *drafts);
-	drafts[plan->draft_count] = plan->parent->draft_m;
 	batten_batch_options batch;
 	batten_batch_options_default(&batch);
 	struct offsets offsets;
@@ -214,16 +223,19 @@ static batten_status run_batch(sweep_machine *machine, const struct measuring *m
 	if (status != BATTEN_OK)
 		return status;
 	batch.device = sweep_machine_device_f64(machine);
-	status = batten_hull_hydrostatics_batch(
-		machine->context, plan->parent, &plan->hydrostatics, &batch, measuring->batch_count,
-		offsets.y_m, offsets.nodes, measuring->batch_drafts, drafts, measuring->forms, NULL);
+	status = batten_hull_hydrostatics_batch(machine->context, plan->parent, &plan->hydrostatics,
+	                                        &batch, measuring->batch_count, offsets.y_m,
+	                                        offsets.nodes, measuring->batch_drafts,
+	                                        measuring->drafts_m, measuring->forms, NULL);
 	return status;
 }
 
 batten_status sweep_stage_measure(sweep_machine *machine, sweep_block *block)
 {
 	batten_context *context = machine->context;
-	struct measuring measuring = { .block = block, .batch_drafts = block->plan->draft_count + 1 };
+	struct measuring measuring = { .block = block };
+	measuring.batch_drafts = list_drafts(block->plan, block->plan->parent->draft_m,
+	                                     measuring.drafts_m, &measuring.own);
 	measuring.place = batten_allocate(context, block->count, sizeof *measuring.place);
 	batten_status status = measuring.place ? BATTEN_OK : BATTEN_MEMORY;
 	if (status == BATTEN_OK) {
