@@ -3,6 +3,7 @@
 #include <math.h>
 #include <nlopt.h>
 #include <string.h>
+#include <time.h>
 
 enum { MEMORY = 10, EVALUATIONS = 5000, ATTEMPTS = 30 };
 #define FIRST_STEP 0.016 /* m: as the searches' */
@@ -119,6 +120,13 @@ double nlopt_peer_search(const wigley_case *w, size_t hull, double stop, double 
 	return ok ? c.best_value : (double)NAN;
 }
 
+static double wall_seconds(void)
+{
+	struct timespec now;
+	(void)clock_gettime(CLOCK_MONOTONIC, &now);
+	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 double nlopt_peer_search_values(const wigley_case *w, size_t hull, nlopt_peer_algorithm algorithm,
                                 double stop, double seconds, double *y)
 {
@@ -135,10 +143,16 @@ double nlopt_peer_search_values(const wigley_case *w, size_t hull, nlopt_peer_al
 	                nlopt_set_lower_bounds(search, c.problem->lower_m) > 0 &&
 	                nlopt_set_upper_bounds(search, c.problem->upper_m) > 0 &&
 	                nlopt_set_initial_step1(search, FIRST_STEP) > 0 &&
-	                nlopt_set_maxtime(search, seconds) > 0 && nlopt_set_stopval(search, stop) > 0;
-	double value = 0.0;
-	if (ok)
-		(void)nlopt_optimize(search, point, &value); /* the best point is kept */
+	                nlopt_set_stopval(search, stop) > 0;
+	const double end = wall_seconds() + seconds;
+	for (double left = seconds; ok && left > 0.0 && !(c.best_value <= stop);
+	     left = end - wall_seconds()) {
+		double value = 0.0;
+		(void)nlopt_set_maxtime(search, left);
+		(void)nlopt_optimize(search, point,
+		                     &value); /* the best point is kept, whatever its ending */
+		memcpy(point, y, sizeof point);
+	}
 	nlopt_destroy(search);
 	return ok ? c.best_value : (double)NAN;
 }

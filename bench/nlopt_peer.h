@@ -17,7 +17,7 @@ typedef enum nlopt_peer_algorithm {
 	NLOPT_PEER_SBPLX,  /* LN_SBPLX */
 } nlopt_peer_algorithm;
 
-/* The same without gradients, from the start once, for so many seconds at most. */
+/* The same without gradients, for so many seconds at most; begun again from its end where it stops before. */
 typedef double nlopt_peer_values_function(const wigley_case *w, size_t hull,
                                           nlopt_peer_algorithm algorithm, double stop,
                                           double seconds, double *y);
