@@ -30,12 +30,13 @@ static double known_minimum(const search_case *c, double w2, size_t *at_bound)
 }
 
 static double searched_minimum(const search_case *c, double w2, batten_precision precision,
-                               unsigned *iterations)
+                               batten_search_algorithm algorithm, unsigned *iterations)
 {
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.device = BATTEN_DEVICE_REFERENCE;
 	options.precision = precision;
+	options.algorithm = algorithm;
 	const batten_search_problem problem = search_case_problem(c, 1.0, w2);
 	batten_search_result result;
 	double *y = calloc(c->nodes, sizeof *y);
@@ -57,12 +58,17 @@ static void check(const char *name, double part, double w2)
 	size_t at_bound = 0;
 	const double minimum = known_minimum(&c, w2, &at_bound);
 	static const double bounds[2] = { 1e-6, 3e-4 };
-	for (int p = 0; p < 2; p++) {
+	for (int run = 0; run < 4; run++) {
+		const int p = run % 2;
+		const batten_search_algorithm algorithm = run < 2 ? BATTEN_ALGORITHM_MULTILEVEL
+		                                                  : BATTEN_ALGORITHM_BLOCK;
 		unsigned iterations = 0;
-		const double found = searched_minimum(&c, w2, p ? BATTEN_F32 : BATTEN_F64, &iterations);
+		const double found = searched_minimum(&c, w2, p ? BATTEN_F32 : BATTEN_F64, algorithm,
+		                                      &iterations);
 		const double gap = found / minimum - 1.0;
-		print_message("%s w2/w1 %g %s: gap %.2e, %u iterations, %zu of the offsets at a bound\n",
-		              name, w2, p ? "f32" : "f64", gap, iterations, at_bound);
+		print_message("%s w2/w1 %g %s %s: gap %.2e, %u iterations, %zu of the offsets at a bound\n",
+		              name, w2, batten_search_algorithm_text(algorithm), p ? "f32" : "f64", gap,
+		              iterations, at_bound);
 		assert_true(gap <= bounds[p]);
 		/* Two methods agree on the minimum: nothing ends below it. */
 		assert_true(gap >= -1e-9);
