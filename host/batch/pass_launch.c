@@ -97,35 +97,35 @@ static batten_status block_upload(block *b)
 	const size_t operations = (size_t)program->shape[PASS_SHAPE_OPERATIONS];
 	const size_t begin = b->first * pass_plan_values(b->plan);
 	const void *from = b->doubles ? (const void *)(b->plan->y_m + begin) : b->short_numbers;
-	const struct {
-		int which;
-		size_t size;
-		const void *from;
-	} uploads[] = {
-		{ SHAPE, sizeof b->tables.shape, b->tables.shape },
-		{ OPERATIONS, (operations + 1) * PASS_OPERATION_SIZE * sizeof(int32_t),
+	const size_t lines = b->stretches ? 0 : 1; /* stretches have none that are fitted */
+	const batch_engine_upload uploads[] = {
+		{ &b->buffers[SHAPE], sizeof b->tables.shape, b->tables.shape },
+		{ &b->buffers[OPERATIONS], (operations + 1) * PASS_OPERATION_SIZE * sizeof(int32_t),
 		  program->operations },
-		{ ROW_FIRST, (program->row_count + 1) * sizeof(int32_t), program->row_first },
-		{ ROW_TARGET, (program->row_count + 1) * sizeof(int32_t), program->row_target },
-		{ TERM_INDEX, (program->term_count + 1) * sizeof(int32_t), program->term_index },
-		{ TERM_FACTOR, (program->term_count + 1) * number, b->tables.term_factor },
-		{ LINE_FIRST, (program->line_count + 1) * sizeof(int32_t), program->line_first },
-		{ POINT_FROM, (program->point_count + 1) * sizeof(int32_t), program->point_from },
-		{ POINT_TO, (program->point_count + 1) * sizeof(int32_t), program->point_to },
-		{ POINT_ALONG, (program->point_count + 1) * number, b->tables.point_along },
-		{ CONSTANTS, ((size_t)program->shape[PASS_SHAPE_CONSTANTS] + 1) * number,
+		{ &b->buffers[ROW_FIRST], (program->row_count + 1) * sizeof(int32_t), program->row_first },
+		{ &b->buffers[ROW_TARGET], (program->row_count + 1) * sizeof(int32_t),
+		  program->row_target },
+		{ &b->buffers[TERM_INDEX], (program->term_count + 1) * sizeof(int32_t),
+		  program->term_index },
+		{ &b->buffers[TERM_FACTOR], (program->term_count + 1) * number, b->tables.term_factor },
+		{ &b->buffers[LINE_FIRST], lines * (program->line_count + 1) * sizeof(int32_t),
+		  program->line_first },
+		{ &b->buffers[POINT_FROM], lines * (program->point_count + 1) * sizeof(int32_t),
+		  program->point_from },
+		{ &b->buffers[POINT_TO], lines * (program->point_count + 1) * sizeof(int32_t),
+		  program->point_to },
+		{ &b->buffers[POINT_ALONG], lines * (program->point_count + 1) * number,
+		  b->tables.point_along },
+		{ &b->buffers[CONSTANTS], ((size_t)program->shape[PASS_SHAPE_CONSTANTS] + 1) * number,
 		  b->tables.constants },
-		{ ROOM, b->groups * b->state_size * b->side_by_side * number, NULL },
-		{ FROM, b->direct ? 0 : b->bytes, from },
-		{ TO, b->direct ? 0 : b->bytes, NULL },
-		{ REFUSED, b->count * sizeof *b->plan->refused, b->plan->refused + b->first },
+		{ &b->buffers[ROOM], b->groups * b->state_size * b->side_by_side * number, NULL },
+		{ &b->buffers[FROM], b->direct ? 0 : b->bytes, from },
+		{ &b->buffers[TO], b->direct ? 0 : b->bytes, NULL },
+		{ &b->buffers[REFUSED], b->count * sizeof *b->plan->refused, b->plan->refused + b->first },
 	};
 	device_session *session = b->engine->session;
-	batten_status status = BATTEN_OK;
-	for (size_t i = 0; i < sizeof uploads / sizeof uploads[0] && status == BATTEN_OK; i++)
-		if (uploads[i].size > 0 && !is_of_lines(b, uploads[i].which))
-			status = device_buffer_create(session, uploads[i].size, uploads[i].from,
-			                              &b->buffers[uploads[i].which]);
+	batten_status status = batch_engine_upload_all(b->engine, uploads,
+	                                               sizeof uploads / sizeof uploads[0]);
 	/* Wrapped memory is read only, whatever its type says. */
 	if (status == BATTEN_OK && b->direct)
 		status = device_buffer_wrap(session, b->bytes, (void *)from, &b->buffers[FROM]);

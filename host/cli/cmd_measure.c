@@ -259,6 +259,10 @@ static batten_status read_command(measure_job *job, int argc, char **argv, bool 
 		return status;
 	if (job->path_count < 1)
 		return cli_usage("measure", "an offsets file was expected, a surface or a mesh");
+	if (job->path_count == 1 && job->device != BATTEN_DEVICE_AUTO)
+		return cli_usage("measure",
+		                 "--device: found one file, expected several surfaces: one alone "
+		                 "is measured without a device");
 	job->path = paths[0];
 	job->paths = paths;
 	status = read_drafts(job);

@@ -178,6 +178,7 @@ refuses()
 	says "$pattern"
 }
 refuses 2 'a surface has no draft' wigley.json
+refuses 2 'device: found one file, expected several surfaces' wigley.json --draft 0.5 --device reference
 refuses 2 'draft 1.5 m: the hull goes from .* to 1 m' wigley.json --draft 1.5
 refuses 2 'draft 2 m: the hull goes from 0 to 1 m' "$hull" --draft 0.5,2
 refuses 2 "found 'x'" "$hull" --draft 0.5,x
