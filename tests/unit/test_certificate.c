@@ -149,7 +149,7 @@ static void test_estimate_of_every_fairness(void **state)
 		options.last_step = 1e-9;
 		search(&c, &problem, &options, y);
 		const batten_certificate end = certify(&c, &problem, &options, y);
-		options.last_step = kind == 2 ? 2e-5 : 2e-4;
+		options.last_step = kind == 2 ? 1e-5 : 2e-4;
 		search(&c, &problem, &options, y);
 		const batten_certificate early = certify(&c, &problem, &options, y);
 		const double gap = early.objective / end.objective - 1.0;
