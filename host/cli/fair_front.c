@@ -14,7 +14,16 @@ static const char *const columns[COLUMNS] = {
 	"objective",   "iterations", "gap_estimate", "converged", "dominated",
 };
 
-static void put_row(const batten_front_point *point, double row[COLUMNS])
+/* The columns, and one for each measure that is kept. */
+static size_t name_columns(const fair_job *job, const char *names[COLUMNS + BATTEN_KEEP_LIMIT])
+{
+	memcpy(names, columns, sizeof columns);
+	for (size_t k = 0; k < job->options.keep_count; k++)
+		names[COLUMNS + k] = batten_hydrostatics_name(job->options.keep[k].quantity);
+	return COLUMNS + job->options.keep_count;
+}
+
+static void put_row(const batten_front_point *point, size_t kept, double *row)
 {
 	const double values[COLUMNS] = {
 		point->ratio,
@@ -30,6 +39,8 @@ static void put_row(const batten_front_point *point, double row[COLUMNS])
 		point->dominated ? 1.0 : 0.0,
 	};
 	memcpy(row, values, sizeof values);
+	for (size_t k = 0; k < kept; k++)
+		row[COLUMNS + k] = point->kept[k].value;
 }
 
 /* LOW:HIGH:COUNT. */
@@ -80,9 +91,9 @@ static batten_status tell_json(const batten_table *table)
 	json_t *rows = json_array();
 	for (size_t r = 0; r < table->row_count; r++) {
 		json_t *row = json_object();
-		for (size_t c = 0; c < COLUMNS; c++)
-			(void)json_object_set_new(row, columns[c],
-			                          cli_json_number(table->values[r * COLUMNS + c]));
+		for (size_t c = 0; c < table->column_count; c++)
+			(void)json_object_set_new(row, table->columns[c],
+			                          cli_json_number(table->values[r * table->column_count + c]));
 		(void)json_array_append_new(rows, row);
 	}
 	json_t *object = json_object();
@@ -99,7 +110,7 @@ static batten_status tell(const fair_job *job, const batten_table *table, const 
 		return BATTEN_OK;
 	(void)printf("%14s %14s %14s %10s\n", "w2/w1", "fairness", "rms change mm", "cn %");
 	for (size_t r = 0; r < table->row_count; r++) {
-		const double *row = table->values + r * COLUMNS;
+		const double *row = table->values + r * table->column_count;
 		(void)printf("%14.6g %14.6g %14.6g %10.4g%s%s\n", row[0], row[1], 1000.0 * row[5], row[3],
 		             row[9] == 0.0 ? "  not converged" : "", row[10] == 0.0 ? "" : "  dominated");
 	}
@@ -129,7 +140,9 @@ batten_status fair_front(fair_job *job, const char *folder)
 	if (status != BATTEN_OK)
 		return status;
 	batten_front_point *points = calloc(count, sizeof *points);
-	double *values = calloc(count, COLUMNS * sizeof *values);
+	const char *names[COLUMNS + BATTEN_KEEP_LIMIT];
+	const size_t width = name_columns(job, names);
+	double *values = calloc(count, width * sizeof *values);
 	batten_status swept = BATTEN_MEMORY;
 	if (points && values)
 		swept = batten_hull_front(job->context, job->hull, &job->options, low, high, count, points);
@@ -140,12 +153,12 @@ batten_status fair_front(fair_job *job, const char *folder)
 		(void)cli_failure("fair", job->context, status);
 	if (status == BATTEN_OK) {
 		for (size_t p = 0; p < count; p++)
-			put_row(&points[p], values + p * COLUMNS);
+			put_row(&points[p], job->options.keep_count, values + p * width);
 		const batten_table table = { .name = batten_hull_name(job->hull),
 			                         .quadrature = "differences over 3 x 3 offsets",
-			                         .column_count = COLUMNS,
+			                         .column_count = width,
 			                         .row_count = count,
-			                         .columns = columns,
+			                         .columns = names,
 			                         .values = values };
 		status = write_files(job, &table, points, folder);
 		if (status == BATTEN_OK)

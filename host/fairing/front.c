@@ -1,16 +1,16 @@
 /* batten_hull_front: one batch of searches that differ in what closeness counts. */
 #include "fairing/box.h"
+#include "fairing/conclude.h"
 #include "fairing/fairing.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { POINTS_MOST = 4096 };
 
 static batten_status check(batten_context *context, const batten_fair_options *options, double low,
                            double high, size_t count)
 {
-	if (options->keep_count > 0)
-		return batten_fail(context, BATTEN_USAGE, "a front keeps no measures");
 	if (options->variables != BATTEN_VARIABLES_OFFSETS)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "a front is one of offsets: --variables offsets was expected");
@@ -70,6 +70,22 @@ static void mark_dominated(size_t count, batten_front_point *points)
 		}
 }
 
+/* What each point is to keep, one after the other, with its certificate. */
+static batten_status keep(batten_fairing *fairing, const batten_fair_options *options,
+                          const fairing_box *box, const batten_search_options *search, size_t count,
+                          sweep *s, batten_front_point *points)
+{
+	const size_t nodes = hull_node_count(fairing->smoothed);
+	batten_status status = BATTEN_OK;
+	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
+		status = fairing_conclude(fairing, options, box, search, s->problems[p], s->y_m + p * nodes,
+		                          &s->results[p]);
+		s->certificates[p] = fairing->certificate;
+		memcpy(points[p].kept, fairing->kept, sizeof points[p].kept);
+	}
+	return status;
+}
+
 static batten_status describe(batten_fairing *fairing, const sweep *s, size_t count,
                               batten_front_point *points)
 {
@@ -77,10 +93,10 @@ static batten_status describe(batten_fairing *fairing, const sweep *s, size_t co
 	const size_t nodes = hull_node_count(faired);
 	batten_status status = BATTEN_OK;
 	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
-		points[p] = (batten_front_point){ .ratio = s->problems[p].w2,
-			                              .fairness = s->certificates[p].fairness,
-			                              .gap_estimate = s->certificates[p].gap_estimate,
-			                              .result = s->results[p] };
+		points[p].ratio = s->problems[p].w2;
+		points[p].fairness = s->certificates[p].fairness;
+		points[p].gap_estimate = s->certificates[p].gap_estimate;
+		points[p].result = s->results[p];
 		for (size_t n = 0; n < nodes; n++)
 			if (faired->nodes[n] != BATTEN_NODE_OUTSIDE)
 				faired->y_m[n] = s->y_m[p * nodes + n];
@@ -107,7 +123,10 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	const batten_status ran = batten_search_batch(fairing->context, &grid, count, s->problems,
 	                                              &chosen, s->y_m, s->results, &fairing->run);
 	batten_status status = ran == BATTEN_INCOMPLETE ? BATTEN_OK : ran;
-	if (status == BATTEN_OK)
+	memset(points, 0, count * sizeof *points);
+	if (status == BATTEN_OK && options->keep_count > 0)
+		status = keep(fairing, options, box, &chosen, count, s, points);
+	else if (status == BATTEN_OK)
 		status = batten_search_certify_batch(fairing->context, &grid, count, s->problems, &chosen,
 		                                     s->y_m, s->certificates);
 	if (status == BATTEN_OK)

@@ -4,23 +4,23 @@
  * Newton's method over whole searches, each from where the last one ended. */
 #include "fairing/kept.h"
 
+#include "fairing/kept_state.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Hulls measured in one batch; searches before the measures count as not to be met; the part of a
- * tolerance that is aimed at, and the least that is taken, where a measure lies at the end of it. */
+/* Hulls measured in one batch; searches of each way to the multipliers, before these count as not found. */
 enum { MEASURED_AT_ONCE = 64, ROUND_LIMIT = 40 };
-#define AIM 0.95
-#define AT_END 0.9
 /* Part of the half-beam that a half-breadth is moved by to see what a measure does. */
 #define NUDGE 1e-4
+/* So many tolerances from where it is to be, a measure tells no step that goes too far from the unevenness
+ * of the searches' ends. */
+#define NEAR 30.0
+/* An offset that f32 left rounding from a bound. */
+#define ROUNDING 0x1p-22
 /* No target goes further from its hull than so many half-beams. */
 #define FARTHEST 1e6
-
-typedef struct matrix {
-	double a[BATTEN_KEEP_LIMIT][BATTEN_KEEP_LIMIT];
-} matrix;
 
 /* Measures are counted in tolerances from what they are to be: within -1 .. 1. */
 typedef struct task {
@@ -28,14 +28,12 @@ typedef struct task {
 	const batten_fair_options *options;
 	const fairing_box *box;
 	batten_hull *hull; /* scratch */
-	size_t nodes, count;
+	size_t nodes;
 	double *y, *moved; /* where the search is; MEASURED_AT_ONCE hulls beside it */
 	batten_hydrostatics *found;
 	double *slopes; /* [count][nodes]: tolerances a metre */
 	double *gives;  /* [nodes]: how far closeness alone lets a half-breadth go, a unit of slope */
-	double value[BATTEN_KEEP_LIMIT], multiplier[BATTEN_KEEP_LIMIT];
-	int side[BATTEN_KEEP_LIMIT]; /* which end a measure is held at; 0: none */
-	matrix response;             /* how measures fall with the multipliers */
+	kept_state at;
 } task;
 
 batten_status fairing_end_check(batten_context *context, const batten_fair_options *options)
@@ -113,7 +111,7 @@ static batten_status measure(task *t, const double *y, double *values)
 	batten_status status = fill(t, y, t->moved);
 	if (status == BATTEN_OK)
 		status = measure_moved(t, 1);
-	for (size_t i = 0; i < t->count && status == BATTEN_OK; i++)
+	for (size_t i = 0; i < t->at.count && status == BATTEN_OK; i++)
 		values[i] = quantity_of(&t->found[0], t->options->keep[i].quantity);
 	return status;
 }
@@ -128,9 +126,9 @@ static batten_status measure_here(task *t)
 {
 	double values[BATTEN_KEEP_LIMIT];
 	const batten_status status = measure(t, t->y, values);
-	for (size_t i = 0; i < t->count && status == BATTEN_OK; i++) {
+	for (size_t i = 0; i < t->at.count && status == BATTEN_OK; i++) {
 		t->fairing->kept[i].value = values[i];
-		t->value[i] = in_tolerances(t, i, values[i]);
+		t->at.value[i] = in_tolerances(t, i, values[i]);
 	}
 	return status;
 }
@@ -141,8 +139,8 @@ static batten_status want(task *t)
 	batten_fairing *fairing = t->fairing;
 	double values[BATTEN_KEEP_LIMIT];
 	const batten_status status = measure(t, fairing->smoothed->y_m, values);
-	fairing->kept_count = t->count;
-	for (size_t i = 0; i < t->count && status == BATTEN_OK; i++) {
+	fairing->kept_count = t->at.count;
+	for (size_t i = 0; i < t->at.count && status == BATTEN_OK; i++) {
 		const batten_keep *keep = &t->options->keep[i];
 		const double part = keep->is_part ? fabs(values[i]) : 1.0;
 		fairing->kept[i] = (batten_kept){ .quantity = keep->quantity,
@@ -170,10 +168,10 @@ static batten_status find_some_slopes(task *t, const size_t *which, size_t count
 	if (status == BATTEN_OK)
 		status = measure_moved(t, count);
 	for (size_t v = 0; v < count && status == BATTEN_OK; v++)
-		for (size_t i = 0; i < t->count; i++) {
+		for (size_t i = 0; i < t->at.count; i++) {
 			const double value = in_tolerances(
 				t, i, quantity_of(&t->found[v], t->options->keep[i].quantity));
-			t->slopes[i * t->nodes + which[v]] = (value - t->value[i]) / nudge;
+			t->slopes[i * t->nodes + which[v]] = (value - t->at.value[i]) / nudge;
 		}
 	return status;
 }
@@ -219,20 +217,20 @@ static void find_gives(task *t, const batten_search_problem *problem)
  * guess. */
 static void guess_response(task *t)
 {
-	for (size_t i = 0; i < t->count; i++)
-		for (size_t j = 0; j < t->count; j++) {
+	for (size_t i = 0; i < t->at.count; i++)
+		for (size_t j = 0; j < t->at.count; j++) {
 			double sum = 0.0;
 			for (size_t n = 0; n < t->nodes; n++)
 				sum += t->slopes[i * t->nodes + n] * t->gives[n] * t->slopes[j * t->nodes + n];
-			t->response.a[i][j] = sum;
+			t->at.response.a[i][j] = sum;
 		}
 }
 
 /* Whether the bounds of the offsets let every measure, by itself, come within its tolerance. */
 static batten_status check_reach(const task *t)
 {
-	for (size_t i = 0; i < t->count; i++) {
-		double least = t->value[i], most = t->value[i];
+	for (size_t i = 0; i < t->at.count; i++) {
+		double least = t->at.value[i], most = t->at.value[i];
 		for (size_t n = 0; n < t->nodes; n++) {
 			const double slope = t->slopes[i * t->nodes + n];
 			const double down = slope * (t->box->lower_m[n] - t->y[n]);
@@ -253,81 +251,6 @@ static batten_status check_reach(const task *t)
 	return BATTEN_OK;
 }
 
-/* Measures beyond an end are held there from now on. Returns whether all is as it should be. */
-static bool judge(task *t)
-{
-	bool good = true;
-	for (size_t i = 0; i < t->count; i++) {
-		if (t->side[i] == 0 && fabs(t->value[i]) > 1.0)
-			t->side[i] = t->value[i] > 0.0 ? 1 : -1;
-		const double held = t->side[i] * t->value[i];
-		good = good && (t->side[i] == 0 ? fabs(t->value[i]) <= 1.0 : held >= AT_END && held <= 1.0);
-	}
-	return good;
-}
-
-/* Solves for the held measures by elimination with the largest pivots; false: they hang together. */
-static bool solve(const task *t, double *change)
-{
-	matrix m = t->response;
-	double right[BATTEN_KEEP_LIMIT];
-	size_t rows[BATTEN_KEEP_LIMIT], count = 0;
-	for (size_t i = 0; i < t->count; i++) {
-		change[i] = 0.0;
-		right[i] = t->value[i] - AIM * t->side[i];
-		if (t->side[i] != 0)
-			rows[count++] = i;
-	}
-	size_t columns[BATTEN_KEEP_LIMIT];
-	memcpy(columns, rows, sizeof columns);
-	for (size_t p = 0; p < count; p++) {
-		size_t best = p;
-		for (size_t r = p; r < count; r++)
-			if (fabs(m.a[rows[r]][columns[p]]) > fabs(m.a[rows[best]][columns[p]]))
-				best = r;
-		const size_t row = rows[best];
-		rows[best] = rows[p];
-		rows[p] = row;
-		const double pivot = m.a[row][columns[p]];
-		if (!(fabs(pivot) > 1e-12 * fabs(t->response.a[row][row])))
-			return false;
-		for (size_t r = p + 1; r < count; r++) {
-			const double part = m.a[rows[r]][columns[p]] / pivot;
-			for (size_t c = p; c < count; c++)
-				m.a[rows[r]][columns[c]] -= part * m.a[row][columns[c]];
-			right[rows[r]] -= part * right[row];
-		}
-	}
-	for (size_t p = count; p-- > 0;) {
-		double sum = right[rows[p]];
-		for (size_t c = p + 1; c < count; c++)
-			sum -= m.a[rows[p]][columns[c]] * change[columns[c]];
-		change[columns[p]] = sum / m.a[rows[p]][columns[p]];
-	}
-	return true;
-}
-
-/* The next multipliers; a measure that would be pulled away from its end is held no more. */
-static bool choose(task *t, double *change)
-{
-	for (size_t tries = 0; tries <= t->count; tries++) {
-		bool all = true;
-		if (!solve(t, change))
-			return false;
-		for (size_t i = 0; i < t->count; i++)
-			if (t->side[i] != 0 && t->side[i] * (t->multiplier[i] + change[i]) < 0.0) {
-				t->side[i] = 0;
-				all = false;
-			}
-		for (size_t i = 0; i < t->count; i++)
-			if (t->side[i] == 0)
-				change[i] = -t->multiplier[i];
-		if (all)
-			return true;
-	}
-	return true;
-}
-
 /* Where closeness pulls to with these multipliers; false: beyond all measure. */
 static bool aim_at(const task *t, double *target)
 {
@@ -335,8 +258,8 @@ static bool aim_at(const task *t, double *target)
 	const double farthest = FARTHEST * batten_hull_half_beam_m(t->fairing->smoothed);
 	for (size_t n = 0; n < t->nodes; n++) {
 		double shift = 0.0;
-		for (size_t i = 0; i < t->count; i++)
-			shift += t->multiplier[i] * t->slopes[i * t->nodes + n];
+		for (size_t i = 0; i < t->at.count; i++)
+			shift += t->at.multiplier[i] * t->slopes[i * t->nodes + n];
 		target[n] = start[n] - t->gives[n] * shift;
 		if (!(fabs(target[n]) <= farthest))
 			return false;
@@ -344,36 +267,19 @@ static bool aim_at(const task *t, double *target)
 	return true;
 }
 
-/* What the last change of the multipliers did, put into the response (Broyden). */
-static void learn(task *t, const double *before, const double *change)
-{
-	double square = 0.0;
-	for (size_t j = 0; j < t->count; j++)
-		square += change[j] * change[j] * t->response.a[j][j] * t->response.a[j][j];
-	if (!(square > 0.0))
-		return;
-	for (size_t i = 0; i < t->count; i++) {
-		double fell = before[i] - t->value[i];
-		for (size_t j = 0; j < t->count; j++)
-			fell -= t->response.a[i][j] * change[j];
-		for (size_t j = 0; j < t->count; j++)
-			t->response.a[i][j] += fell * change[j] * t->response.a[j][j] * t->response.a[j][j] /
-			                       square;
-	}
-}
-
 static batten_status fail_to_meet(const task *t)
 {
 	char names[320] = "";
-	for (size_t i = 0; i < t->count; i++)
-		if (t->side[i] != 0 || fabs(t->value[i]) > 1.0) {
+	for (size_t i = 0; i < t->at.count; i++)
+		if (t->at.side[i] != 0 || fabs(t->at.value[i]) > 1.0) {
 			const size_t used = strlen(names);
 			(void)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "",
 			               batten_hydrostatics_name(t->options->keep[i].quantity));
 		}
 	return batten_fail(t->fairing->context, BATTEN_INPUT,
-	                   "%s: these are not to be kept together within the bounds of the offsets: %s",
-	                   t->fairing->smoothed->name, names);
+	                   "%s: these were not met together within the bounds of the offsets, in %u "
+	                   "searches: %s",
+	                   t->fairing->smoothed->name, t->fairing->kept_rounds, names);
 }
 
 static batten_status search_again(task *t, const batten_search_options *search,
@@ -396,27 +302,73 @@ static batten_status search_again(task *t, const batten_search_options *search,
 	return status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
 }
 
+/* f32 rounds bounds: offsets that are held stand beside them, where a search in f64 would find them free and
+ * in its way. */
+static void put_on_bounds(task *t)
+{
+	for (size_t n = 0; n < t->nodes; n++) {
+		const double near = ROUNDING * fabs(t->y[n]);
+		if (t->y[n] <= t->box->lower_m[n] + near)
+			t->y[n] = t->box->lower_m[n];
+		else if (t->y[n] >= t->box->upper_m[n] - near)
+			t->y[n] = t->box->upper_m[n];
+	}
+}
+
+/* One way to the multipliers; `careful`: a step that leads no closer, often to where bounds hold all there
+ * is, is halved. *met false: they were not found. nearest: where the measures came nearest. */
+static batten_status follow(task *t, bool careful, const batten_search_options *search,
+                            const batten_search_problem *shifted, double *target,
+                            kept_state *nearest, batten_search_result *result, bool *met)
+{
+	double change[BATTEN_KEEP_LIMIT];
+	kept_state base = t->at;
+	bool closer = true;
+	for (unsigned round = 1; round <= ROUND_LIMIT; round++) {
+		for (size_t i = 0; i < t->at.count && !closer; i++)
+			change[i] *= 0.5;
+		if (closer) {
+			base = t->at;
+			if (!kept_choose(&t->at, change))
+				break;
+		}
+		for (size_t i = 0; i < t->at.count; i++)
+			t->at.multiplier[i] = base.multiplier[i] + change[i];
+		if (!aim_at(t, target))
+			break;
+		batten_status status = search_again(t, search, shifted, result);
+		if (status == BATTEN_OK)
+			status = measure_here(t);
+		t->fairing->kept_rounds++;
+		*met = status == BATTEN_OK && kept_judge(&t->at);
+		if (status != BATTEN_OK || *met)
+			return status;
+		kept_learn(&t->at, base.value, change);
+		const double now = kept_distance(&t->at, t->at.value);
+		closer = !careful || now < NEAR || now < kept_distance(&t->at, base.value);
+		if (now < kept_distance(&t->at, nearest->value))
+			*nearest = t->at;
+	}
+	return BATTEN_OK;
+}
+
+/* First by steps as long as they come out, which measures that hang together need; then carefully from where
+ * these came nearest. */
 static batten_status meet(task *t, const batten_search_options *search, double *target,
                           const batten_search_problem *problem, batten_search_result *result)
 {
 	batten_search_problem shifted = *problem;
+	kept_state nearest = t->at;
+	bool met = false;
 	shifted.target_m = target;
-	for (unsigned round = 1; round <= ROUND_LIMIT; round++) {
-		double change[BATTEN_KEEP_LIMIT], before[BATTEN_KEEP_LIMIT];
-		if (!choose(t, change))
-			break;
-		memcpy(before, t->value, sizeof before);
-		for (size_t i = 0; i < t->count; i++)
-			t->multiplier[i] += change[i];
-		if (!aim_at(t, target))
-			break;
-		batten_status status = search_again(t, search, &shifted, result);
-		if (status == BATTEN_OK)
-			status = measure_here(t);
-		t->fairing->kept_rounds = round;
-		if (status != BATTEN_OK || judge(t))
+	for (int careful = 0; careful < 2; careful++) {
+		memcpy(t->at.multiplier, nearest.multiplier, sizeof t->at.multiplier);
+		memcpy(t->at.value, nearest.value, sizeof t->at.value);
+		guess_response(t);
+		const batten_status status = follow(t, careful, search, &shifted, target, &nearest, result,
+		                                    &met);
+		if (status != BATTEN_OK || met)
 			return status;
-		learn(t, before, change);
 	}
 	return fail_to_meet(t);
 }
@@ -424,10 +376,14 @@ static batten_status meet(task *t, const batten_search_options *search, double *
 static batten_status keep(task *t, const batten_search_options *search, double *target,
                           batten_search_problem *problem, batten_search_result *result)
 {
+	/* f32 only screens: it ends so unevenly that measures do not follow multipliers. */
+	batten_search_options exact = *search;
+	exact.precision = BATTEN_F64;
+
 	batten_status status = want(t);
 	if (status == BATTEN_OK)
 		status = measure_here(t);
-	if (status != BATTEN_OK || judge(t))
+	if (status != BATTEN_OK || kept_judge(&t->at))
 		return status;
 	status = find_slopes(t);
 	if (status == BATTEN_OK)
@@ -435,10 +391,11 @@ static batten_status keep(task *t, const batten_search_options *search, double *
 	if (status != BATTEN_OK)
 		return status;
 	find_gives(t, problem);
-	guess_response(t);
-	status = meet(t, search, target, problem, result);
-	for (size_t i = 0; i < t->count; i++)
-		t->fairing->kept[i].multiplier = t->multiplier[i] / t->fairing->kept[i].tolerance;
+	if (search->precision == BATTEN_F32)
+		put_on_bounds(t);
+	status = meet(t, &exact, target, problem, result);
+	for (size_t i = 0; i < t->at.count; i++)
+		t->fairing->kept[i].multiplier = t->at.multiplier[i] / t->fairing->kept[i].tolerance;
 	problem->target_m = target;
 	return status;
 }
@@ -451,11 +408,12 @@ batten_status fairing_keep(batten_fairing *fairing, const batten_fair_options *o
 	batten_context *context = fairing->context;
 	task t = { .fairing = fairing, .options = options, .box = box, .y = y };
 	t.nodes = hull_node_count(fairing->smoothed);
-	t.count = options->keep_count;
+	t.at.count = options->keep_count;
+	fairing->kept_rounds = 0;
 	batten_status status = batten_hull_clone(context, fairing->smoothed, &t.hull);
 	t.moved = batten_allocate(context, MEASURED_AT_ONCE * t.nodes, sizeof *t.moved);
 	t.found = batten_allocate(context, MEASURED_AT_ONCE, sizeof *t.found);
-	t.slopes = batten_allocate(context, t.count * t.nodes, sizeof *t.slopes);
+	t.slopes = batten_allocate(context, t.at.count * t.nodes, sizeof *t.slopes);
 	t.gives = batten_allocate(context, t.nodes, sizeof *t.gives);
 	if (status == BATTEN_OK && (!t.moved || !t.found || !t.slopes || !t.gives))
 		status = BATTEN_MEMORY;

@@ -75,7 +75,14 @@ for bad in volume=1% volume_m3 volume_m3= volume_m3=0 volume_m3=1x volume_m3=-1%
 	expect 2 fair "$hull" --keep $bad --out out
 done
 expect 2 fair "$hull" --keep volume_m3=1% --variables net --out out
-expect 2 fair "$hull" --keep volume_m3=1% --front 1:1e3:3 --out out
+expect 0 fair "$hull" $soft --keep $keep --precision f32 --out out
+holds 'kept in f32' 'b - a <= 1.001e-4 * a && a - b <= 1.001e-4 * a' \
+	a="$(member out/report.json smoothed volume_m3)" b="$(member out/report.json after volume_m3)"
+expect 0 fair "$hull" --max-distance 2% --keep $keep --front 100:1e4:3 --device reference --out front
+awk -F, -v v="$(member out/report.json smoothed volume_m3)" '/^#/ { next }
+	!head { head = 1; if ($12 != "volume_m3" || $13 != "lcb_pct_lbp_fwd") exit 1; next }
+	{ n++; if ($12 - v > 1.001e-4 * v || v - $12 > 1.001e-4 * v) exit 1 }
+	END { if (n != 3) exit 1 }' front/front.csv || fail 'the front keeps nothing'
 
 # scaled FACTOR: the hull with every half-breadth times this.
 scaled()

@@ -125,10 +125,53 @@ static void test_refusals(void **state)
 	assert_int_equal(batten_picture_front(f->context, "none", 1, points, "none.svg"), BATTEN_USAGE);
 }
 
+/* Each point keeps what a fairing with its weights keeps, at the same objective; a measure that bounds forbid is
+ * named. */
+static void test_front_keeps_measures(void **state)
+{
+	fixture *f = *state;
+	enum { FEW = 4 };
+	size_t volume = 0;
+	while (strcmp(batten_hydrostatics_name(volume), "volume_m3") != 0)
+		volume++;
+	const batten_keep keep = { volume, 1e-5, true };
+	batten_fair_options options = f->options;
+	batten_front_point points[FEW], free_points[FEW];
+	unsigned held = 0;
+	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, free_points),
+	                 BATTEN_OK);
+	options.keep = &keep;
+	options.keep_count = 1;
+	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, points),
+	                 BATTEN_OK);
+	options.weights_given = true;
+	options.w1 = 1.0;
+	for (int p = 0; p < FEW; p++) {
+		batten_fairing *fairing = NULL;
+		size_t count = 0;
+		options.w2 = points[p].ratio;
+		assert_int_equal(batten_hull_fair(f->context, f->hull, &options, &fairing), BATTEN_OK);
+		const batten_kept *kept = batten_fairing_kept(fairing, &count, NULL);
+		assert_int_equal(points[p].kept[0].quantity, volume);
+		assert_true(points[p].kept[0].value == kept->value);
+		assert_true(fabs(points[p].kept[0].value - kept->wanted) <= kept->tolerance);
+		assert_true(points[p].result.objective_end ==
+		            batten_fairing_result(fairing)->objective_end);
+		assert_true(points[p].gap_estimate <= 1e-6);
+		if (kept->multiplier != 0.0) {
+			held++;
+			assert_true(points[p].result.objective_end > free_points[p].result.objective_end);
+		}
+		batten_fairing_destroy(fairing);
+	}
+	assert_true(held > 0);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_front),
+		cmocka_unit_test(test_front_keeps_measures),
 		cmocka_unit_test(test_dominated),
 		cmocka_unit_test(test_refusals),
 	};

@@ -150,6 +150,56 @@ static void test_alone_and_together(void **state)
 	}
 }
 
+/* Where f32 only screens the measures are kept as exactly, at the same objective; and where an interior penalty
+ * keeps the bounds. */
+static void test_f32_and_interior_penalty(void **state)
+{
+	(void)state;
+	static const char *const hulls[] = { "wigley_noisy", "npl_parent" };
+	batten_keep keep[KEPT];
+	choose_keeps(keep);
+	for (size_t h = 0; h < sizeof hulls / sizeof hulls[0]; h++) {
+		fixture f = open_hull(hulls[h]);
+		for (size_t i = 0; i <= KEPT; i++) {
+			const size_t count = i < KEPT ? 1 : 2;
+			batten_fair_options options = options_for(&keep[i < KEPT ? i : 1], count);
+			batten_fairing *exact = fair(&f, &options);
+			options.search.precision = BATTEN_F32;
+			batten_fairing *screened = fair(&f, &options);
+			check(&f, screened, options.keep, count);
+			assert_true(fabs(objective_of(screened) - objective_of(exact)) <=
+			            1e-5 * objective_of(exact));
+			batten_fairing_destroy(screened);
+			batten_fairing_destroy(exact);
+		}
+		batten_fair_options options = options_for(keep, 1);
+		options.search.interior_penalty = true;
+		batten_fairing *inside = fair(&f, &options);
+		check(&f, inside, keep, 1);
+		assert_int_equal(batten_fairing_describe(inside).at_limit_count, 0);
+		batten_fairing_destroy(inside);
+		close_hull(&f);
+	}
+}
+
+/* All bending and a narrow box: single measures whose bounds let them be met are met, though most of the hull
+ * is held and steps of the multipliers end where all of it is. */
+static void test_mostly_held(void **state)
+{
+	(void)state;
+	batten_keep keep[KEPT];
+	choose_keeps(keep);
+	fixture f = open_hull("wigley_noisy");
+	for (size_t i = 0; i < KEPT; i++) {
+		batten_fair_options options = options_for(&keep[i], 1);
+		options.w2 = 40.0;
+		batten_fairing *fairing = fair(&f, &options);
+		check(&f, fairing, &keep[i], 1);
+		batten_fairing_destroy(fairing);
+	}
+	close_hull(&f);
+}
+
 static void test_within_the_tolerance_nothing_changes(void **state)
 {
 	(void)state;
@@ -234,8 +284,8 @@ static void test_what_cannot_be_kept_is_named(void **state)
 	options.lower = lower;
 	expect_fault(&f, &options, BATTEN_INPUT, "volume_m3", "the bounds of the offsets allow");
 	batten_hull_destroy(lower);
-	/* Fuller forward: the volume wants less aft, the centre of buoyancy more. */
-	lower = fuller(&f, 0.004, 8.0);
+	/* Much fuller forward: the volume wants less aft, the centre of buoyancy more. */
+	lower = fuller(&f, 0.012, 8.0);
 	const batten_keep both[] = { keep[0], keep[2] };
 	options.keep = both;
 	options.keep_count = 2;
@@ -255,6 +305,8 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_alone_and_together),
+		cmocka_unit_test(test_f32_and_interior_penalty),
+		cmocka_unit_test(test_mostly_held),
 		cmocka_unit_test(test_within_the_tolerance_nothing_changes),
 		cmocka_unit_test(test_multiplier_is_the_price),
 		cmocka_unit_test(test_what_cannot_be_kept_is_named),

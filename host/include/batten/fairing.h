@@ -113,8 +113,8 @@ typedef struct batten_fair_options {
 	const batten_lock *locks; /* borrowed for the call */
 	size_t lock_count;
 	const batten_hull *lower, *upper; /* bounds on the same table, or NULL; of OFFSETS only */
-	/* Measures to keep, borrowed for the call; of OFFSETS, w2 above 0. The weight is chosen without
-	 * them. */
+	/* Measures to keep, borrowed for the call; of OFFSETS, w2 above 0, by searches in f64 after one in the
+	 * precision of `search`. The weight is chosen without them. */
 	const batten_keep *keep;
 	size_t keep_count; /* at most BATTEN_KEEP_LIMIT */
 	double polish_gap; /* batten_search_polish_batch(), or that of nets, to this; 0 (default): not;
@@ -226,11 +226,12 @@ typedef struct batten_front_point {
 	double gap_estimate;        /* of the search, as in batten_certificate */
 	bool dominated; /* another point is no worse in fairness and closeness_m4, better in one */
 	batten_search_result result;
+	batten_kept kept[BATTEN_KEEP_LIMIT]; /* as batten_fairing_kept(): keep_count of the options */
 } batten_front_point;
 
 /* Sweeps w2/w1 from ratio_low to ratio_high, equal factors apart, in one batch of searches over the
- * offsets: the fairness-closeness front of a hull. points: the caller's, count of them, ratios
- * ascending. options as for batten_hull_fair, with OFFSETS and without weights; NULL: the default.
+ * offsets, then keeps what is to be kept, point by point: the fairness-closeness front of a hull. points:
+ * the caller's, count of them, ratios ascending. options as for batten_hull_fair, with OFFSETS and without weights; NULL: the default.
  * 0 < ratio_low < ratio_high, both 1e-100 .. 1e100; count 2 .. 4096. Returns INCOMPLETE when a search
  * met its iteration limit. Errors: those of batten_hull_fair. */
 BATTEN_API batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
