@@ -309,7 +309,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		  "so close (searches in f64), of --front at every point" },
 		{ "interior-penalty", CLI_FLAG, &request->interior_penalty, NULL,
 		  "keep bounds by r sum 1/g, r falling (thesis 7.1), not by moves that end at them: --search "
-		  "multilevel, twice the work and more" },
+		  "multilevel, three to six times the work" },
 		{ "polish", CLI_NUMBER, &request->polish, "GAP",
 		  "finish in f64, by Newton steps, where gap_estimate is above this, e.g. 1e-9; with --precision "
 		  "f32 the search only screens" },
