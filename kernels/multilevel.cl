@@ -20,12 +20,13 @@
 /* The level of a colour: all colours of the coarsest level first. */
 static inline global const int *level_of(const search_state *s, int colour)
 {
-	return s->levels + (s->level_count - 1 - colour / SEARCH_COLOUR_COUNT) * SEARCH_LEVEL_SIZE;
+	return s->levels + (s->level_count - 1 - colour / GRID_COLOURS(GRID_FAIRNESS)) *
+	                   SEARCH_LEVEL_SIZE;
 }
 
 static inline void colour_range(const search_state *s, int colour, int *first, int *end)
 {
-	global const int *at = level_of(s, colour) + SEARCH_LEVEL_FIRST + colour % SEARCH_COLOUR_COUNT;
+	global const int *at = level_of(s, colour) + SEARCH_LEVEL_FIRST + colour % GRID_COLOURS(GRID_FAIRNESS);
 	*first = at[0];
 	*end = at[1];
 }
@@ -90,7 +91,8 @@ static inline real direction_explore(const search_state *s, int colour, int dire
 	global const int *level = level_of(s, colour);
 	search_move move;
 	real step;
-	if (level[SEARCH_LEVEL_WIDTH_X] > 1 || level[SEARCH_LEVEL_WIDTH_Z] > 1) {
+	if (GRID_FAIRNESS == GRID_VARIATION || level[SEARCH_LEVEL_WIDTH_X] > 1 ||
+	    level[SEARCH_LEVEL_WIDTH_Z] > 1) {
 		move_begin(s, colour, direction, &move);
 		step = hat_explore(s, &move, h, extra);
 	} else {
@@ -178,8 +180,8 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	settings += group * SEARCH_SETTING_COUNT;
 	search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
 	s.level_count = level_count;
-	s.colour_count = level_count * SEARCH_COLOUR_COUNT;
-	s.wide_colours = search_wide_levels(levels, level_count) * SEARCH_COLOUR_COUNT;
+	s.colour_count = level_count * GRID_COLOURS(GRID_FAIRNESS);
+	s.wide_colours = search_wide_levels(levels, level_count) * GRID_COLOURS(GRID_FAIRNESS);
 	s.levels = levels;
 	s.centres = centres;
 	search_run(&s, iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes,

@@ -60,28 +60,20 @@ static double *array_of(const certifier *c, int array)
 	return c->arrays + (size_t)array * c->plan->node_count;
 }
 
-/* Places of a stencil's nodes. */
-static void stencil_places(const certifier *c, size_t node, size_t places[GRID_STENCIL_NODES])
-{
-	const size_t stride = c->plan->station_count + 2;
-	for (size_t n = 0; n < GRID_STENCIL_NODES; n++)
-		places[n] = node + n / 3 * stride + n % 3 - stride - 1;
-}
-
 /* The term of a node, its stencil and the places it stands on; false where the energy has none. */
 static bool term_of(const certifier *c, size_t node, grid_stencil *stencil,
-                    size_t places[GRID_STENCIL_NODES], jet *term)
+                    size_t places[GRID_STENCIL_MOST], jet *term)
 {
 	const double bend = array_of(c, SEARCH_ARRAY_BEND)[node];
 	if (!(bend > 0.0))
 		return false;
 	const size_t stride = c->plan->station_count + 2;
 	const double *y = array_of(c, SEARCH_ARRAY_Y);
-	double values[GRID_STENCIL_NODES];
-	stencil_places(c, node, places);
-	for (size_t n = 0; n < GRID_STENCIL_NODES; n++)
-		values[n] = y[places[n]];
+	double values[GRID_STENCIL_MOST];
 	*stencil = grid_stencil_of(c->plan, node % stride - 1, node / stride - 1);
+	grid_stencil_places(grid_stencil_count(c->plan), node, c->plan->station_count + 2, places);
+	for (size_t n = 0; n < stencil->count; n++)
+		values[n] = y[places[n]];
 	*term = jet_scale(grid_density(c->plan, c->problem->half_beam_m, stencil, values), bend);
 	return true;
 }
@@ -101,13 +93,13 @@ static double differentiate(certifier *c, double *fairness)
 	}
 	for (size_t node = 0; node < nodes; node++) {
 		grid_stencil stencil;
-		size_t places[GRID_STENCIL_NODES];
+		size_t places[GRID_STENCIL_MOST];
 		jet term;
 		if (!term_of(c, node, &stencil, places, &term))
 			continue;
 		*fairness += term.value;
-		for (size_t n = 0; n < GRID_STENCIL_NODES; n++)
-			for (int v = 0; v < GRID_TERM_VARIABLES; v++)
+		for (size_t n = 0; n < stencil.count; n++)
+			for (int v = 0; v < stencil.variables; v++)
 				c->gradient[places[n]] += term.first[v] * stencil.weight[v][n];
 	}
 	return sum + *fairness;
@@ -148,13 +140,13 @@ static size_t band_width(const certifier *c)
 {
 	size_t width = 0;
 	for (size_t node = 0; node < c->plan->node_count; node++) {
-		size_t places[GRID_STENCIL_NODES];
+		size_t places[GRID_STENCIL_MOST];
 		size_t least = none;
 		size_t most = 0;
 		if (!(array_of(c, SEARCH_ARRAY_BEND)[node] > 0.0))
 			continue;
-		stencil_places(c, node, places);
-		for (size_t n = 0; n < GRID_STENCIL_NODES; n++) {
+		grid_stencil_places(grid_stencil_count(c->plan), node, c->plan->station_count + 2, places);
+		for (size_t n = 0; n < grid_stencil_count(c->plan); n++) {
 			const size_t number = c->number[places[n]];
 			if (number == none)
 				continue;
@@ -169,25 +161,25 @@ static size_t band_width(const certifier *c)
 
 /* C^T S C of a term into the band: what each pair of its nodes has of the Hessian. */
 static void add_term(const certifier *c, size_t width, const grid_stencil *stencil,
-                     const size_t places[GRID_STENCIL_NODES], const jet *term, double *band)
+                     const size_t places[GRID_STENCIL_MOST], const jet *term, double *band)
 {
-	for (size_t n = 0; n < GRID_STENCIL_NODES; n++) {
+	for (size_t n = 0; n < stencil->count; n++) {
 		const size_t row = c->number[places[n]];
-		double by[GRID_TERM_VARIABLES] = { 0.0 };
+		double by[GRID_TERM_VARIABLES_MOST] = { 0.0 };
 		if (row == none)
 			continue;
-		for (int i = 0, at = 0; i < GRID_TERM_VARIABLES; i++)
+		for (int i = 0, at = 0; i < stencil->variables; i++)
 			for (int j = 0; j <= i; j++, at++) {
 				by[j] += stencil->weight[i][n] * term->second[at];
 				if (i != j)
 					by[i] += stencil->weight[j][n] * term->second[at];
 			}
-		for (size_t m = 0; m < GRID_STENCIL_NODES; m++) {
+		for (size_t m = 0; m < stencil->count; m++) {
 			const size_t column = c->number[places[m]];
 			if (column == none || column > row)
 				continue;
 			double sum = 0.0;
-			for (int v = 0; v < GRID_TERM_VARIABLES; v++)
+			for (int v = 0; v < stencil->variables; v++)
 				sum += by[v] * stencil->weight[v][m];
 			band[row * (width + 1) + width - (row - column)] += sum;
 		}
@@ -200,7 +192,7 @@ static void assemble(const void *of, size_t width, double *band)
 	const double *close = array_of(c, SEARCH_ARRAY_CLOSE);
 	for (size_t node = 0; node < c->plan->node_count; node++) {
 		grid_stencil stencil;
-		size_t places[GRID_STENCIL_NODES];
+		size_t places[GRID_STENCIL_MOST];
 		jet term;
 		if (c->number[node] != none)
 			band[c->number[node] * (width + 1) + width] += 2.0 * close[node];
@@ -250,6 +242,14 @@ double certifier_objective(certifier *c, const batten_search_problem *problem, c
 	return differentiate(c, &fairness);
 }
 
+/* Fairness as a sum, without its weight. */
+static double unweighed(const certifier *c, double fairness)
+{
+	const double h = c->problem->half_beam_m;
+	const double scale = c->plan->fairness == GRID_VARIATION ? h * h : 1.0;
+	return c->problem->w1 > 0.0 ? fairness / (c->problem->w1 * scale) : NAN;
+}
+
 static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	certifier *c = (certifier *)of;
@@ -257,7 +257,7 @@ static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 	*out = (batten_certificate){ .gap_estimate = NAN };
 	pack_end(c, y_m);
 	out->objective = differentiate(c, &out->fairness);
-	out->fairness = c->problem->w1 > 0.0 ? out->fairness / c->problem->w1 : NAN;
+	out->fairness = unweighed(c, out->fairness);
 	double last = 0.0;
 	out->free_count = number_unknowns(c, &last);
 	double square = 0.0;

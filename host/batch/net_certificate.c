@@ -71,7 +71,8 @@ static bool term_of(const net_certifier *c, const net_patch *patch, const double
 	for (int d = 0; d < patch->variables; d++)
 		for (size_t n = 0; n < patch->count; n++)
 			way[d] += patch->weight[d][n] * c->way[patch->poles[n]];
-	*term = jet_scale(net_density_of(&c->plan, sample, way, c->rounded), sample[NET_SAMPLE_FAIR]);
+	*term = jet_scale(net_density_of(c->plan.fairness, sample, way, c->rounded),
+	                  sample[NET_SAMPLE_FAIR]);
 	return true;
 }
 

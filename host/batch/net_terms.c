@@ -98,7 +98,7 @@ static void find_forms(net_forms *f)
 
 /* Bending, mean or Gauss, by the entries of the shape operator I^-1 II: k1^2 + k2^2 is the trace of its
  * square, 2 H its trace, K its determinant. */
-static jet fairness_of(const net_plan *plan, const net_forms *f, double rounding)
+static jet fairness_of(int fairness, const net_forms *f, double rounding)
 {
 	const jet inverse = jet_inverse(f->square);
 	const jet_triple *i = &f->first;
@@ -107,9 +107,9 @@ static jet fairness_of(const net_plan *plan, const net_forms *f, double rounding
 	const jet a12 = jet_multiply(crossed(i->vv, ii->uv, i->uv, ii->vv), inverse);
 	const jet a21 = jet_multiply(crossed(i->uu, ii->uv, i->uv, ii->uu), inverse);
 	const jet a22 = jet_multiply(crossed(i->uu, ii->vv, i->uv, ii->uv), inverse);
-	if (plan->fairness == NET_FAIRNESS_MEAN)
+	if (fairness == NET_FAIRNESS_MEAN)
 		return jet_scale(jet_square(jet_add(a11, a22)), 0.25);
-	if (plan->fairness == NET_FAIRNESS_GAUSS)
+	if (fairness == NET_FAIRNESS_GAUSS)
 		return jet_root(
 			jet_add(jet_square(crossed(a11, a22, a12, a21)), jet_constant(rounding * rounding)));
 	return jet_add(jet_add(jet_square(a11), jet_square(a22)),
@@ -205,15 +205,15 @@ static bool has_directions(const jet form[3])
 	return square > SURFACE_UMBILIC_F64 * SURFACE_UMBILIC_F64 * (a * a + c * c + 2.0 * b * b);
 }
 
-jet net_density_of(const net_plan *plan, const double *sample,
-                   const double way[NET_TERM_VARIABLES_MOST], double rounding)
+jet net_density_of(int fairness, const double *sample, const double way[NET_TERM_VARIABLES_MOST],
+                   double rounding)
 {
-	const bool third = plan->fairness == NET_FAIRNESS_VARIATION;
+	const bool third = fairness == NET_FAIRNESS_VARIATION;
 	net_forms f;
 	read_vectors(sample, way, third ? NET_TERM_VARIABLES_MOST : NET_TERM_VARIABLES, &f);
 	find_forms(&f);
 	if (!third)
-		return jet_multiply(fairness_of(plan, &f, rounding), f.area);
+		return jet_multiply(fairness_of(fairness, &f, rounding), f.area);
 	jet cubic[4], form[3], turned[4];
 	derive_second(&f, cubic);
 	turn_to_frame(&f, cubic, form, turned);

@@ -26,10 +26,10 @@ typedef struct net_patch {
 
 void net_patch_of(const net_plan *plan, size_t line, size_t sample, net_patch *out);
 
-/* Fairness times dA / (du dv) by the derivatives of y. sample: packed in f64, one lane (net_layout.h); way:
+/* Fairness times dA / (du dv) by the derivatives of y. fairness: NET_FAIRNESS_...; sample: packed in f64, one lane (net_layout.h); way:
  * those of y less target. rounding: of |K|, as net_layout.h has it. A constant 0 where the variation of
  * curvature is not known. */
-jet net_density_of(const net_plan *plan, const double *sample,
-                   const double way[NET_TERM_VARIABLES_MOST], double rounding);
+jet net_density_of(int fairness, const double *sample, const double way[NET_TERM_VARIABLES_MOST],
+                   double rounding);
 
 #endif

@@ -33,16 +33,29 @@ static double get(const search_plan *plan, const void *numbers, size_t at)
 
 size_t search_stencil_count(const search_plan *plan)
 {
-	return (plan->station_count + plan->waterline_count) * STENCIL_SIZE;
+	const size_t third = plan->third_x ? STENCIL_THIRD : 0;
+	return (plan->station_count + plan->waterline_count) * (STENCIL_SIZE + third);
+}
+
+/* Returns the place behind. */
+static size_t put_all(const search_plan *plan, void *numbers, size_t at, const double *values,
+                      size_t count)
+{
+	for (size_t n = 0; n < count; n++)
+		put(plan, numbers, at + n, values[n]);
+	return at + count;
 }
 
 void search_pack_stencils(const search_plan *plan, void *stencils)
 {
-	const size_t along_x = plan->station_count * STENCIL_SIZE;
-	for (size_t n = 0; n < along_x; n++)
-		put(plan, stencils, n, plan->stencil_x[n]);
-	for (size_t n = 0; n < plan->waterline_count * STENCIL_SIZE; n++)
-		put(plan, stencils, along_x + n, plan->stencil_z[n]);
+	const size_t stations = plan->station_count;
+	const size_t waterlines = plan->waterline_count;
+	size_t at = put_all(plan, stencils, 0, plan->stencil_x, stations * STENCIL_SIZE);
+	at = put_all(plan, stencils, at, plan->stencil_z, waterlines * STENCIL_SIZE);
+	if (!plan->third_x)
+		return;
+	at = put_all(plan, stencils, at, plan->third_x, stations * STENCIL_THIRD);
+	(void)put_all(plan, stencils, at, plan->third_z, waterlines * STENCIL_THIRD);
 }
 
 static bool on_hull(const batten_search_problem *problem, size_t node)
@@ -50,12 +63,27 @@ static bool on_hull(const batten_search_problem *problem, size_t node)
 	return !problem->nodes || problem->nodes[node] != BATTEN_NODE_OUTSIDE;
 }
 
-/* Whether the node and its eight neighbours are all on the hull: only there has the energy a term. */
+/* Whether the two lines on each side of a node are there, and it is on the hull two steps away. */
+static bool has_third_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
+                           size_t k)
+{
+	const size_t stations = plan->station_count;
+	const size_t node = k * stations + i;
+	if (i < 2 || k < 2 || i + 2 >= stations || k + 2 >= plan->waterline_count)
+		return false;
+	return on_hull(problem, node - 2) && on_hull(problem, node + 2) &&
+	       on_hull(problem, node - 2 * stations) && on_hull(problem, node + 2 * stations);
+}
+
+/* Whether the node and its eight neighbours, and for the variation of curvature the four beyond them, are
+ * all on the hull: only there has the energy a term. */
 static bool has_term(const search_plan *plan, const batten_search_problem *problem, size_t i,
                      size_t k)
 {
 	const size_t stations = plan->station_count;
 	if (i == 0 || k == 0 || i + 1 == stations || k + 1 == plan->waterline_count)
+		return false;
+	if (plan->fairness == GRID_VARIATION && !has_third_term(plan, problem, i, k))
 		return false;
 	if (!problem->nodes)
 		return true;
@@ -111,7 +139,8 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
 	put(plan, arrays, SEARCH_ARRAY_CLOSE * array + at, problem->w2 * weight * cell / (h2 * h2));
 	if (has_term(plan, problem, i, k))
-		put(plan, arrays, SEARCH_ARRAY_BEND * array + at, problem->w1 * cell);
+		put(plan, arrays, SEARCH_ARRAY_BEND * array + at,
+		    problem->w1 * cell * (plan->fairness == GRID_VARIATION ? h2 : 1.0));
 }
 
 void search_pack(const search_plan *plan, const batten_search_problem *problems, size_t which,

@@ -24,6 +24,15 @@ static void lay_out_direction(const double *at, size_t count, double *stencil, d
 	}
 }
 
+/* Weights of third derivatives; 0 where two nodes on each side are not there. */
+static void lay_out_third(const double *at, size_t count, double *third)
+{
+	for (size_t i = 2; i + 2 < count; i++) {
+		const difference_quartic quartic = difference_quartic_of(at + i);
+		memcpy(third + i * STENCIL_THIRD, quartic.weight, sizeof quartic.weight);
+	}
+}
+
 /* The median spacing stands for a direction whose spacing is uneven. */
 static batten_status typical_spacing(batten_context *context, const double *at, size_t count,
                                      double *spacing)
@@ -112,8 +121,9 @@ static size_t add_colour(const search_plan *plan, const search_level *level, siz
 	const size_t along_x = search_centre_count(plan->station_count, level->width_x);
 	const size_t along_z = search_centre_count(plan->waterline_count, level->width_z);
 	size_t added = 0;
-	for (size_t b = colour / 3; b < along_z; b += 3)
-		for (size_t a = colour % 3; a < along_x; a += 3) {
+	const size_t aside = GRID_COLOURS_ASIDE(plan->fairness);
+	for (size_t b = colour / aside; b < along_z; b += aside)
+		for (size_t a = colour % aside; a < along_x; a += aside) {
 			const int station = (int)a * level->width_x;
 			const int waterline = (int)b * level->width_z;
 			if (!direction_moves(plan, movable, NULL, level, station, waterline))
@@ -131,7 +141,7 @@ static void add_directions(search_plan *plan, const uint8_t *movable)
 {
 	size_t total = 0;
 	for (int l = 0; l < plan->level_count; l++)
-		for (size_t c = 0; c < SEARCH_COLOUR_COUNT; c++) {
+		for (size_t c = 0; c < GRID_COLOURS(plan->fairness); c++) {
 			search_level *level = &plan->levels[l];
 			int32_t *centres = plan->centres ? plan->centres + 2 * total : NULL;
 			level->first[c] = (int)total;
@@ -240,6 +250,16 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 	memcpy(plan->z_m, grid->z_m, grid->waterline_count * sizeof(double));
 	lay_out_direction(grid->x_m, grid->station_count, plan->stencil_x, plan->cell_x);
 	lay_out_direction(grid->z_m, grid->waterline_count, plan->stencil_z, plan->cell_z);
+	if (plan->fairness == GRID_VARIATION) {
+		plan->third_x = batten_allocate(context, grid->station_count,
+		                                STENCIL_THIRD * sizeof(double));
+		plan->third_z = batten_allocate(context, grid->waterline_count,
+		                                STENCIL_THIRD * sizeof(double));
+		if (!plan->third_x || !plan->third_z)
+			return BATTEN_MEMORY;
+		lay_out_third(grid->x_m, grid->station_count, plan->third_x);
+		lay_out_third(grid->z_m, grid->waterline_count, plan->third_z);
+	}
 	batten_status status = typical_spacing(context, grid->x_m, grid->station_count,
 	                                       &plan->spacing_x);
 	if (status == BATTEN_OK)
@@ -247,6 +267,20 @@ static batten_status lay_out_grid(search_plan *plan, const batten_grid *grid)
 	if (status == BATTEN_OK)
 		choose_levels(plan);
 	return status;
+}
+
+batten_fairness search_fairness_of(int fairness)
+{
+	switch (fairness) {
+	case GRID_MEAN:
+		return BATTEN_FAIRNESS_MEAN;
+	case GRID_GAUSS:
+		return BATTEN_FAIRNESS_GAUSS;
+	case GRID_VARIATION:
+		return BATTEN_FAIRNESS_VARIATION;
+	default:
+		return BATTEN_FAIRNESS_BENDING;
+	}
 }
 
 static bool is_curvature_weight(double weight)
@@ -275,11 +309,14 @@ static batten_status choose_fairness(search_plan *plan)
 		plan->fairness = GRID_GAUSS;
 		return BATTEN_OK;
 	case BATTEN_FAIRNESS_VARIATION:
+		plan->fairness = GRID_VARIATION;
+		if (along == 1.0 && across == 1.0)
+			return BATTEN_OK;
 		return batten_fail(
 			plan->context, BATTEN_USAGE,
-			"variation of curvature takes third differences, which reach beyond the 3 "
-			"x 3 offsets a search looks at: it needs the net as variables "
-			"(--variables net)");
+			"variation of curvature goes along the principal directions, both alike: "
+			"longitudinal and transverse weight 1 are expected, found %g and %g",
+			along, across);
 	}
 	return batten_fail(plan->context, BATTEN_USAGE, "found fairness %d, which is none",
 	                   (int)plan->options.fairness);
@@ -325,6 +362,8 @@ void search_plan_destroy(search_plan *plan)
 	batten_release(context, plan->z_m);
 	batten_release(context, plan->stencil_x);
 	batten_release(context, plan->stencil_z);
+	batten_release(context, plan->third_x);
+	batten_release(context, plan->third_z);
 	batten_release(context, plan->cell_x);
 	batten_release(context, plan->cell_z);
 	batten_release(context, plan->centres);
@@ -341,7 +380,8 @@ uint64_t search_problem_directions(const search_plan *plan, const batten_search_
 {
 	uint64_t directions = 0;
 	for (int l = first_level; l < end_level; l++)
-		for (int d = plan->levels[l].first[0]; d < plan->levels[l].first[SEARCH_COLOUR_COUNT]; d++)
+		for (int d = plan->levels[l].first[0];
+		     d < plan->levels[l].first[GRID_COLOURS(plan->fairness)]; d++)
 			directions += direction_moves(plan, NULL, problem, &plan->levels[l],
 			                              plan->centres[2 * d], plan->centres[2 * d + 1]);
 	return directions;

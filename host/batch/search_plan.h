@@ -13,7 +13,7 @@ enum { SEARCH_LEVEL_LIMIT = 12 };
  * first[c] to first[c + 1] of plan->centres. */
 typedef struct search_level {
 	int32_t width_x, width_z;
-	int32_t first[SEARCH_COLOUR_COUNT + 1];
+	int32_t first[SEARCH_COLOUR_LIMIT + 1];
 } search_level;
 _Static_assert(sizeof(search_level) == SEARCH_LEVEL_SIZE * sizeof(int32_t),
                "as the kernel reads it");
@@ -24,6 +24,7 @@ typedef struct search_plan {
 		node_count;                /* node_count with a ring of one node around */
 	double *x_m, *z_m;             /* coordinates */
 	double *stencil_x, *stencil_z; /* STENCIL_SIZE a station, a waterline */
+	double *third_x, *third_z;     /* STENCIL_THIRD each, of GRID_VARIATION; else NULL */
 	double *cell_x, *cell_z;       /* half-sum spacings */
 	double spacing_x, spacing_z;   /* medians */
 	int level_count;
@@ -69,6 +70,9 @@ batten_status search_plan_create(batten_context *context, const batten_grid *gri
                                  const batten_search_problem *problems,
                                  const batten_search_options *options, search_plan **out);
 void search_plan_destroy(search_plan *plan);
+
+/* What was asked for where the plan says GRID_BENDING ... */
+batten_fairness search_fairness_of(int fairness);
 
 /* Why a problem cannot be searched, or NULL. */
 const char *search_problem_fault(const search_plan *plan, const batten_search_problem *problem);

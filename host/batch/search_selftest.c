@@ -153,14 +153,12 @@ batten_status search_selftest_run(search_engine *engine, batten_selftest *result
 	batten_search_options options;
 	batten_search_options_default(&options);
 	options.precision = shape->precision;
-	options.fairness = shape->fairness == GRID_MEAN    ? BATTEN_FAIRNESS_MEAN
-	                   : shape->fairness == GRID_GAUSS ? BATTEN_FAIRNESS_GAUSS
-	                                                   : BATTEN_FAIRNESS_BENDING;
+	options.fairness = search_fairness_of(shape->fairness);
 	options.algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
 	if (shape->textbook)
 		options.last_step = 1e-3; /* it takes hundreds of sweeps to what the other ends with */
 	options.interior_penalty = shape->penalised;
-	if (shape->fairness != GRID_BENDING)
+	if (shape->fairness != GRID_BENDING && shape->fairness != GRID_VARIATION)
 		options.longitudinal_weight = 2.0;
 	return search_selftest_compare(search_engine_base(engine)->context, &sides, &options,
 	                               shape->lanes, result);

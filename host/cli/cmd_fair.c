@@ -282,7 +282,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "variables", CLI_TEXT, &request->variables, "NAME",
 		  "offsets (default) of the table, or net: poles of a surface" },
 		{ "fairness", CLI_TEXT, &request->fairness, "NAME",
-		  "bending (default), mean, gauss; with --variables net also mvc" },
+		  "bending (default), mean, gauss, or mvc: variation of curvature" },
 		{ "longitudinal", CLI_NUMBER, &request->longitudinal, "X",
 		  "weight of squared curvature along the waterlines (1)" },
 		{ "transverse", CLI_NUMBER, &request->transverse, "X",

@@ -48,10 +48,11 @@ static batten_status check_offsets(const fair_request *request, const batten_fai
 		if (given[i].text)
 			return cli_usage("fair", "--%s is about a net: --variables net was expected with it",
 			                 given[i].name);
-	if (options->fairness == BATTEN_FAIRNESS_VARIATION)
-		return cli_usage(
-			"fair", "--fairness: found 'mvc', expected bending, mean or gauss with --variables "
-					"offsets: variation of curvature needs --variables net");
+	if (options->fairness == BATTEN_FAIRNESS_VARIATION &&
+	    (!isnan(request->longitudinal) || !isnan(request->transverse)))
+		return cli_usage("fair",
+		                 "--fairness mvc goes along the principal directions, both alike: no "
+		                 "--longitudinal or --transverse was expected with it");
 	return BATTEN_OK;
 }
 

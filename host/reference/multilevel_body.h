@@ -71,10 +71,10 @@ static scalar sweep(const reference_multilevel *plan, const search_state *s, int
 		const int32_t *first = level + SEARCH_LEVEL_FIRST;
 		direction d = { .move = { .width_x = level[SEARCH_LEVEL_WIDTH_X],
 			                      .width_z = level[SEARCH_LEVEL_WIDTH_Z] } };
-		d.single = d.move.width_x == 1 && d.move.width_z == 1;
+		d.single = GRID_FAIRNESS != GRID_VARIATION && d.move.width_x == 1 && d.move.width_z == 1;
 		d.move.inverse_x = LITERAL(1.0) / (scalar)d.move.width_x;
 		d.move.inverse_z = LITERAL(1.0) / (scalar)d.move.width_z;
-		for (int32_t n = first[0]; n < first[SEARCH_COLOUR_COUNT]; n++) {
+		for (int32_t n = first[0]; n < first[GRID_COLOURS(GRID_FAIRNESS)]; n++) {
 			d.move.station = plan->centres[2 * n];
 			d.move.waterline = plan->centres[2 * n + 1];
 			if (d.single)

@@ -124,8 +124,9 @@ static batten_status read_words(const plan_place *place, batten_fair_options *op
 	options->search.algorithm = algorithms[algorithm];
 	const bool plain = fairness == 0 && !plan_member(place, "longitudinal").json &&
 	                   !plan_member(place, "transverse").json;
-	if (fairness == 3 && options->variables == BATTEN_VARIABLES_OFFSETS)
-		return plan_expect(&chosen, "bending, mean or gauss; mvc is of a net");
+	if (fairness == 3 &&
+	    (plan_member(place, "longitudinal").json || plan_member(place, "transverse").json))
+		return plan_expect(&chosen, "bending, mean or gauss with weights of directions");
 	if (options->search.algorithm == BATTEN_ALGORITHM_BLOCK && !plain)
 		return plan_expect(&search, "auto or multilevel: block knows plain bending only");
 	return BATTEN_OK;

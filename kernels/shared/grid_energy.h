@@ -11,6 +11,9 @@
  * w[3] e - w[2] d. Differences first: they are exact where neighbours are close, which f32 needs. */
 #define STENCIL_SIZE 4
 
+/* Weights of the third derivative by five nodes, one a difference of two neighbours. */
+#define STENCIL_THIRD 4
+
 /* Three neighbours in a row along x. */
 typedef struct node_row {
 	real aft, here, fore;

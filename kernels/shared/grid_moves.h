@@ -25,7 +25,8 @@ SHARED_FUNCTION int within(int at, int first, int last)
 	return at < first ? first : at > last ? last : at;
 }
 
-/* First and last node under a hat along one direction, or, `beside` 1, of those whose terms it changes. */
+/* First and last node under a hat along one direction, or, `beside` GRID_REACH, of those whose terms it
+ * changes. */
 SHARED_FUNCTION int hat_first(int centre, int width, int beside)
 {
 	return centre - width + 1 - beside < 0 ? 0 : centre - width + 1 - beside;
@@ -71,10 +72,29 @@ SHARED_FUNCTION row_slopes row_of(const search_state *s, const scalar *x, int no
 	return row;
 }
 
+/* Those of the variation of curvature: see column_objective(). */
+SHARED_FUNCTION real column_third_objective(const search_state *s, int station, int first_k,
+                                            int last_k, STATE real *terms)
+{
+	real sum = SPREAD(LITERAL(0.0));
+	ROLLED
+	for (int k = first_k; k <= last_k; k++) {
+		const int node = node_of(s, station, k);
+		real term = third_objective(s, s->y, station, k);
+		if (GRID_PENALTY)
+			term += node_penalty(s->penalty, s->y[node], s->lower[node], s->upper[node]);
+		terms[node] = term;
+		sum += term;
+	}
+	return sum;
+}
+
 /* The terms of a station's nodes first_k .. last_k, into `terms` too. */
 SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k,
                                       STATE real *terms)
 {
+	if (GRID_FAIRNESS == GRID_VARIATION)
+		return column_third_objective(s, station, first_k, last_k, terms);
 	scalar x[STENCIL_SIZE];
 	real sum = SPREAD(LITERAL(0.0));
 	UNROLLED
@@ -119,12 +139,13 @@ SHARED_FUNCTION void grid_terms_begin(const search_state *s)
 /* The objective over the nodes whose terms a hat can change, as known before its probes. */
 SHARED_FUNCTION real hat_objective_before(const search_state *s, const search_move *move)
 {
-	const int first_k = hat_first(move->waterline, move->width_z, 1);
-	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
+	const int reach = GRID_REACH(GRID_FAIRNESS);
+	const int first_k = hat_first(move->waterline, move->width_z, reach);
+	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
+	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
-	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++) {
+	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++) {
 		real column = SPREAD(LITERAL(0.0));
 		int node = node_of(s, i, first_k);
 		ROLLED
@@ -138,13 +159,14 @@ SHARED_FUNCTION real hat_objective_before(const search_state *s, const search_mo
 /* The same after its step, from turn 1 on; the terms into s->found. */
 SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *move, int turn)
 {
-	const int first_k = hat_first(move->waterline, move->width_z, 1);
-	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
+	const int reach = GRID_REACH(GRID_FAIRNESS);
+	const int first_k = hat_first(move->waterline, move->width_z, reach);
+	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
+	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
 	real sum = SPREAD(LITERAL(0.0));
 	hat_place(s, move, turn > 1);
 	ROLLED
-	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++)
+	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++)
 		sum += column_objective(s, i, first_k, last_k, s->found);
 	return sum;
 }
@@ -152,15 +174,16 @@ SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *mov
 /* Takes the step and, where there is one, the terms that the last probe found: that of this step. */
 SHARED_FUNCTION void hat_end(const search_state *s, const search_move *move)
 {
-	const int first_k = hat_first(move->waterline, move->width_z, 1);
-	const int last_k = hat_last(move->waterline, move->width_z, 1, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, 1, s->stations);
+	const int reach = GRID_REACH(GRID_FAIRNESS);
+	const int first_k = hat_first(move->waterline, move->width_z, reach);
+	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
+	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
 	const mask moved = move->step != SPREAD(LITERAL(0.0));
 	hat_place(s, move, 1);
 	if (!ANY(moved))
 		return;
 	ROLLED
-	for (int i = hat_first(move->station, move->width_x, 1); i <= last_i; i++) {
+	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++) {
 		int node = node_of(s, i, first_k);
 		ROLLED
 		for (int k = first_k; k <= last_k; k++, node += s->stride)

@@ -18,6 +18,7 @@
 typedef struct search_state {
 	int stations, waterlines, stride, nodes;
 	GLOBAL const scalar *along_x, *along_z;
+	GLOBAL const scalar *third_x, *third_z; /* STENCIL_THIRD a line each, of GRID_VARIATION */
 	STATE real *y, *base, *trial;
 	STATE real *terms, *found; /* the objective's at y; as a probe found them */
 	GLOBAL const real *lower, *upper, *target, *bend, *close;
@@ -46,6 +47,8 @@ SHARED_FUNCTION node_stencil stencil_of(const search_state *s, int station, int 
 	return stencil;
 }
 
+#include "grid_third.h"
+
 /* Where a step leads from y in a box. */
 SHARED_FUNCTION real step_from(const search_state *s, real y, real step, real lower, real upper)
 {
@@ -53,6 +56,23 @@ SHARED_FUNCTION real step_from(const search_state *s, real y, real step, real lo
 	if (GRID_PENALTY)
 		return move_inside(y, step, lower, upper);
 	return move_clamped(y, step, lower, upper);
+}
+
+/* The part of the objective of a node of trial. */
+SHARED_FUNCTION real trial_objective(const search_state *s, int station, int waterline)
+{
+	if (GRID_FAIRNESS == GRID_VARIATION)
+		return third_objective(s, s->trial, station, waterline);
+	const int node = node_of(s, station, waterline);
+	const STATE real *b = s->trial + (node - s->stride);
+	const STATE real *h = s->trial + node;
+	const STATE real *a = s->trial + (node + s->stride);
+	const node_row below = { b[-1], b[0], b[1] };
+	const node_row here = { h[-1], h[0], h[1] };
+	const node_row above = { a[-1], a[0], a[1] };
+	return node_objective(GRID_FAIRNESS, s->weights,
+	                      slopes_of(stencil_of(s, station, waterline), below, here, above),
+	                      s->bend[node], s->close[node], here.here, s->target[node]);
 }
 
 /* The whole objective at s->trial, the same in every work-item. */
@@ -64,17 +84,9 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 		ROLLED
 		for (int i = 0; i < s->stations; i++) {
 			const int node = node_of(s, i, k);
-			const STATE real *b = s->trial + (node - s->stride);
-			const STATE real *h = s->trial + node;
-			const STATE real *a = s->trial + (node + s->stride);
-			const node_row below = { b[-1], b[0], b[1] };
-			const node_row here = { h[-1], h[0], h[1] };
-			const node_row above = { a[-1], a[0], a[1] };
-			line += node_objective(GRID_FAIRNESS, s->weights,
-			                       slopes_of(stencil_of(s, i, k), below, here, above),
-			                       s->bend[node], s->close[node], here.here, s->target[node]);
+			line += trial_objective(s, i, k);
 			if (GRID_PENALTY)
-				line += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
+				line += node_penalty(s->penalty, s->trial[node], s->lower[node], s->upper[node]);
 		}
 		s->lines[k] = line;
 	}
@@ -99,6 +111,8 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.nodes = (stations + 2) * (waterlines + 2);
 	s.along_x = stencils;
 	s.along_z = stencils + stations * STENCIL_SIZE;
+	s.third_x = s.along_z + waterlines * STENCIL_SIZE;
+	s.third_z = s.third_x + stations * STENCIL_THIRD;
 	s.y = room;
 	s.base = room + s.nodes;
 	s.trial = room + 2 * s.nodes;

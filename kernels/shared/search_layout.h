@@ -25,8 +25,17 @@ enum {
 	GRID_BENDING,          /* k1^2 + k2^2, both directions alike */
 	GRID_BENDING_WEIGHTED, /* the directions weighted */
 	GRID_MEAN,             /* ((k1 + k2) / 2)^2 */
-	GRID_GAUSS             /* |k1 k2|, rounded off at 0 */
+	GRID_GAUSS,            /* |k1 k2|, rounded off at 0 */
+	GRID_VARIATION         /* h^2 ((dk1/de1)^2 + (dk2/de2)^2), by third differences */
 };
+
+/* How far along a line the nodes lie that a term stands on. */
+#define GRID_REACH(kind) ((kind) == GRID_VARIATION ? 2 : 1)
+
+/* Directions of one colour share no term and none reads what another moves: so many colours along each
+ * direction of a level. */
+#define GRID_COLOURS_ASIDE(kind) ((kind) == GRID_VARIATION ? 5 : 3)
+#define GRID_COLOURS(kind) (GRID_COLOURS_ASIDE(kind) * GRID_COLOURS_ASIDE(kind))
 
 /* |K| is taken as sqrt(K^2 + e^2) with e this part of 1 / h^2: a search needs a smooth objective. */
 #define GAUSS_ROUNDING 1e-3
@@ -56,11 +65,11 @@ enum {
 
 /* One level of hats: widths along x and z, first direction of each colour and the end of the last. */
 enum {
-	SEARCH_COLOUR_COUNT = 9,
+	SEARCH_COLOUR_LIMIT = 25,
 	SEARCH_LEVEL_WIDTH_X = 0,
 	SEARCH_LEVEL_WIDTH_Z = 1,
 	SEARCH_LEVEL_FIRST = 2,
-	SEARCH_LEVEL_SIZE = SEARCH_LEVEL_FIRST + SEARCH_COLOUR_COUNT + 1
+	SEARCH_LEVEL_SIZE = SEARCH_LEVEL_FIRST + SEARCH_COLOUR_LIMIT + 1
 };
 
 #endif

@@ -75,7 +75,7 @@ refuses 2 '--order is about a net' --order 4x4
 refuses 2 '--fix-tangent is about a net' --fix-tangent stem
 refuses 2 '--round is about a net' --round keel
 refuses 2 'is about a net' --lock row:1
-refuses 2 '--fairness: ' --fairness mvc
+refuses 2 '--fairness mvc' --fairness mvc --longitudinal 2
 refuses 2 '--longitudinal' --variables net --longitudinal 2
 refuses 2 '--fairness: ' --variables net --fairness smooth
 refuses 2 '--variables: ' --variables poles

@@ -103,7 +103,7 @@ refuse()
 	[ -e no.db ] && fail "bad.json made a database: $1"
 }
 refuse '"method": "inverse", "w2_over_w1": "w"' 'bad.json: \$.fair.w2_over_w1: unknown key, expected method, smooth, '
-refuse '"w2_over_w1": "w", "fairness": "mvc"' 'bad.json: \$.fair.fairness: found "mvc", expected bending, mean or gauss'
+refuse '"w2_over_w1": "w", "fairness": "mvc", "longitudinal": 2' 'bad.json: \$.fair.fairness: found "mvc", expected bending, mean or gauss'
 refuse '"w2_over_w1": "w", "fairness": "mean", "search": "block"' 'bad.json: \$.fair.search: .*plain bending'
 refuse '"w2_over_w1": "w", "first_step": 0.001, "last_step": 0.01' 'bad.json: \$.fair.last_step: .*below first_step'
 refuse '"w2_over_w1": "w", "locks": [ { "deck": 1 } ]' 'bad.json: \$.fair.locks\[0\].deck: unknown key'

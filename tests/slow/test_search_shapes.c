@@ -57,6 +57,8 @@ static void test_textbook_and_other_fairness(void **state)
 		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING_WEIGHTED, false, false },
 		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false, false },
 		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false, false },
+		{ 0, BATTEN_F64, 1, 5, true, GRID_VARIATION, false, false },
+		{ 0, BATTEN_F32, 16, 1, false, GRID_VARIATION, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
 }

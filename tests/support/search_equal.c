@@ -35,10 +35,8 @@ static void set_options(const search_shape *shape, batten_search_options *option
 	options->algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
 	if (shape->textbook)
 		options->iteration_limit = 8;
-	options->fairness = shape->fairness == GRID_MEAN    ? BATTEN_FAIRNESS_MEAN
-	                    : shape->fairness == GRID_GAUSS ? BATTEN_FAIRNESS_GAUSS
-	                                                    : BATTEN_FAIRNESS_BENDING;
-	if (shape->fairness != GRID_BENDING)
+	options->fairness = search_fairness_of(shape->fairness);
+	if (shape->fairness != GRID_BENDING && shape->fairness != GRID_VARIATION)
 		options->longitudinal_weight = 3.0;
 }
 

@@ -33,13 +33,15 @@ static void footprint_release(footprint *f)
 	free(f->reads);
 }
 
-static bool near(int a, int b)
+/* Whether a term stands on a node: one of nine, or, of the variation of curvature, of the four beyond. */
+static bool stands_on(const search_plan *plan, int x, int z)
 {
-	return a - b <= 1 && b - a <= 1;
+	const int far = abs(x) > abs(z) ? abs(x) : abs(z);
+	return far <= 1 || (plan->fairness == GRID_VARIATION && far == 2 && (x == 0 || z == 0));
 }
 
-/* By definition: it writes the nodes under its hat; a term changes where one of its nine nodes is
- * written; a changed term reads all nine. */
+/* By definition: it writes the nodes under its hat; a term changes where one of its nodes is written; a
+ * changed term reads all of them. */
 static void trace(const search_plan *plan, const search_level *level, int d, footprint *f)
 {
 	const int nx = (int)plan->station_count;
@@ -53,10 +55,10 @@ static void trace(const search_plan *plan, const search_level *level, int d, foo
 		f->writes[n] = abs(n % nx - i0) < level->width_x && abs(n / nx - k0) < level->width_z;
 	for (int w = 0; w < nx * nz; w++)
 		for (int n = 0; f->writes[w] && n < nx * nz; n++)
-			f->terms[n] |= near(n % nx, w % nx) && near(n / nx, w / nx);
+			f->terms[n] |= stands_on(plan, n % nx - w % nx, n / nx - w / nx);
 	for (int t = 0; t < nx * nz; t++)
 		for (int n = 0; f->terms[t] && n < nx * nz; n++)
-			f->reads[n] |= near(n % nx, t % nx) && near(n / nx, t / nx);
+			f->reads[n] |= stands_on(plan, n % nx - t % nx, n / nx - t / nx);
 }
 
 static void check_colour(const search_plan *plan, const search_level *level, int colour)
@@ -79,22 +81,27 @@ static void check_colour(const search_plan *plan, const search_level *level, int
 	footprint_release(&other);
 }
 
-static void check_hull(const char *name)
+static void check_hull(const char *name, batten_fairness fairness)
 {
+	batten_search_options options;
+	batten_search_options_default(&options);
+	options.fairness = fairness;
 	search_case c = search_case_open(name, 0.01, false);
 	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e4);
 	search_plan *plan = NULL;
-	assert_int_equal(search_plan_create(c.context, &c.grid, 1, &problem, NULL, &plan), BATTEN_OK);
+	assert_int_equal(search_plan_create(c.context, &c.grid, 1, &problem, &options, &plan),
+	                 BATTEN_OK);
 	assert_true(plan->level_count >= 2);
 	uint8_t *covered = calloc(c.nodes, 1);
 	assert_non_null(covered);
 	for (int l = 0; l < plan->level_count; l++)
-		for (int colour = 0; colour < SEARCH_COLOUR_COUNT; colour++)
+		for (int colour = 0; colour < GRID_COLOURS(plan->fairness); colour++)
 			check_colour(plan, &plan->levels[l], colour);
 	/* The finest level moves every variable by itself. */
 	assert_int_equal(plan->levels[0].width_x, 1);
 	assert_int_equal(plan->levels[0].width_z, 1);
-	for (int d = plan->levels[0].first[0]; d < plan->levels[0].first[SEARCH_COLOUR_COUNT]; d++)
+	for (int d = plan->levels[0].first[0]; d < plan->levels[0].first[GRID_COLOURS(plan->fairness)];
+	     d++)
 		covered[(size_t)plan->centres[2 * d + 1] * plan->station_count +
 		        (size_t)plan->centres[2 * d]]++;
 	for (size_t n = 0; n < c.nodes; n++)
@@ -107,25 +114,27 @@ static void check_hull(const char *name)
 static void test_npl_parent(void **state)
 {
 	(void)state;
-	check_hull("npl_parent");
+	check_hull("npl_parent", BATTEN_FAIRNESS_BENDING);
+	check_hull("npl_parent", BATTEN_FAIRNESS_VARIATION);
 }
 
 static void test_bsra_trawler(void **state)
 {
 	(void)state;
-	check_hull("bsra_trawler");
+	check_hull("bsra_trawler", BATTEN_FAIRNESS_BENDING);
+	check_hull("bsra_trawler", BATTEN_FAIRNESS_VARIATION);
 }
 
 static void test_highspeed_craft(void **state)
 {
 	(void)state;
-	check_hull("highspeed_craft");
+	check_hull("highspeed_craft", BATTEN_FAIRNESS_BENDING);
 }
 
 static void test_wigley(void **state)
 {
 	(void)state;
-	check_hull("wigley");
+	check_hull("wigley", BATTEN_FAIRNESS_BENDING);
 }
 
 static void test_wigley_noisy(void **state)

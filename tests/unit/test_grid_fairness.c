@@ -219,7 +219,7 @@ static void test_refusals(void **state)
 {
 	(void)state;
 	const batten_search_options refused[] = {
-		options_of(BATTEN_FAIRNESS_VARIATION, 1.0, 1.0),
+		options_of(BATTEN_FAIRNESS_VARIATION, 2.0, 1.0),
 		options_of((batten_fairness)7, 1.0, 1.0),
 		options_of(BATTEN_FAIRNESS_BENDING, 0.0, 0.0),
 		options_of(BATTEN_FAIRNESS_BENDING, -1.0, 1.0),

@@ -150,8 +150,9 @@ static void test_polish(void **state)
 		batten_net_options options = options_of((batten_fairness)(run / 2), 60);
 		batten_certificate end;
 		options.search.precision = run % 2 ? BATTEN_F32 : BATTEN_F64;
-		(void)search(&c, &problem, &options, y);
+		const double found = search(&c, &problem, &options, y).objective_end;
 		const batten_certificate before = certify(&c, &problem, &options, y);
+		assert_true(fabs(found / before.objective - 1.0) < (run % 2 ? 1e-4 : 1e-11));
 		assert_int_equal(batten_net_polish_batch(c.context, 1, &problem, &options, 1e-13, y, &end),
 		                 BATTEN_OK);
 		const double gain = before.objective / end.objective - 1.0;

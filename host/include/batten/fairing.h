@@ -120,8 +120,8 @@ typedef struct batten_fair_options {
 	double polish_gap; /* batten_search_polish_batch(), or that of nets, to this; 0 (default): not;
 	                      without measures to keep */
 	batten_variables variables; /* BATTEN_VARIABLES_OFFSETS */
-	batten_fairness fairness;   /* of both, in place of search.fairness; no VARIATION with
-	                                     OFFSETS, no weights of directions with NET */
+	batten_fairness fairness;   /* of both, in place of search.fairness; no weights of directions
+	                                     with NET or VARIATION */
 	/* The rest is of NET only. */
 	batten_fit_options fit;           /* counts 0: chosen from the table; stiffness 1e-3 */
 	const batten_net_lock *net_locks; /* borrowed for the call */

@@ -65,7 +65,7 @@ typedef struct batten_search_options {
 	unsigned lanes;      /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
 	unsigned work_group; /* work-items a search is shared by; 0 chooses */
 	/* The rest is of searches over offset grids only. */
-	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING; VARIATION is for nets only */
+	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING; VARIATION takes both weights 1 */
 	/* Weights of the squared normal curvature along the tangent of the waterline, k11, and square to
 	 * it in the surface, k22 (Letcher 4.5: the former counts more). With a and b their roots the
 	 * entries of the shape operator in this frame become a k11, sqrt(a b) k12, b k22 in every
