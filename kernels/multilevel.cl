@@ -20,13 +20,14 @@
 /* The level of a colour: all colours of the coarsest level first. */
 static inline global const int *level_of(const search_state *s, int colour)
 {
-	return s->levels + (s->level_count - 1 - colour / GRID_COLOURS(GRID_FAIRNESS)) *
-	                   SEARCH_LEVEL_SIZE;
+	return s->levels +
+	       (s->level_count - 1 - colour / GRID_COLOURS(GRID_FAIRNESS)) * SEARCH_LEVEL_SIZE;
 }
 
 static inline void colour_range(const search_state *s, int colour, int *first, int *end)
 {
-	global const int *at = level_of(s, colour) + SEARCH_LEVEL_FIRST + colour % GRID_COLOURS(GRID_FAIRNESS);
+	global const int *at = level_of(s, colour) + SEARCH_LEVEL_FIRST +
+	                       colour % GRID_COLOURS(GRID_FAIRNESS);
 	*first = at[0];
 	*end = at[1];
 }
