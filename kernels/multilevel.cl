@@ -130,7 +130,7 @@ static inline void extrapolate(const search_state *s, real factor)
  * it falls. Lanes that are not `going` keep everything. */
 static inline void search_pattern(const search_state *s, mask going, int turn, search_progress *p)
 {
-	const int pattern_limit = turn > 0 ? PATTERN_LIMIT : 0;
+	const int pattern_limit = !ANY(going) ? -1 : turn > 0 ? PATTERN_LIMIT : 0;
 	const real zero = SPREAD(LITERAL(0.0));
 	real factor = zero, best = zero, probes = zero;
 	ROLLED
@@ -151,13 +151,13 @@ static inline void search_pattern(const search_state *s, mask going, int turn, s
 			break;
 	}
 	search_count(p, probes);
-	if (ANY(best > zero)) {
-		extrapolate(s, best);
-		ROLLED
-		for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-			s->y[n] = CHOOSE(best > zero, s->trial[n], s->y[n]);
-		WAIT;
-	}
+	if (ALONE && !ANY(best > zero))
+		return;
+	extrapolate(s, best);
+	ROLLED
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
+		s->y[n] = CHOOSE(best > zero, s->trial[n], s->y[n]);
+	WAIT;
 }
 
 #include "shared/search_driver.h"

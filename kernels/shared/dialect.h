@@ -118,10 +118,12 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 
 /* Around barriers, though nobody waits at them, PoCL takes the kernel apart: three times the compiling. */
 #if defined(BATTEN_ALONE)
+#define ALONE 1
 #define WORK_ITEM 0
 #define WORK_ITEMS 1
 #define WAIT ((void)0)
 #else
+#define ALONE 0
 #define WORK_ITEM ((int)get_local_id(0))
 #define WORK_ITEMS ((int)get_local_size(0))
 #define WAIT barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)

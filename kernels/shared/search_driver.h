@@ -6,7 +6,8 @@
  *                      what pattern moves need before the first
  *   void search_pattern(const search_state *, mask going, int turn, search_progress *)
  *                      the objective at y, in turn 0 no more; then on along the iteration's way, y -
- *                      base, while the objective falls. Lanes that are not `going` keep everything */
+ *                      base, while the objective falls. Lanes that are not `going` keep everything, and
+ *                      where none is, nothing is worked */
 #ifndef BATTEN_SHARED_SEARCH_DRIVER_H
 #define BATTEN_SHARED_SEARCH_DRIVER_H
 
@@ -14,21 +15,25 @@
 
 /* The wide levels of an iteration, for the lanes whose turn it is; p->wide is the objective after them.
  * Returns the longest step this work-item took. */
-SHARED_FUNCTION real search_wide_sweep(const search_state *s, int turn, real h, real *extra,
-                                       search_progress *p)
+SHARED_FUNCTION real search_wide_sweep(const search_state *s, int colours, int turn, real h,
+                                       real *extra, search_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real due = turn % WIDE_TURNS == 0 ? h : CHOOSE(p->wide_pays > zero, h, zero);
-	p->wide = p->objective;
-	if (s->wide_colours == 0 || !ANY(due > zero))
-		return zero;
-	const real longest = search_sweep(s, 0, s->wide_colours, due, extra);
+	const int swept = ANY(due > zero) ? colours : 0;
+	const real longest = search_sweep(s, 0, swept, due, extra);
+	const int nodes = swept > 0 ? s->nodes : 0;
+	if (ALONE && swept == 0) {
+		p->wide = p->objective;
+		return longest;
+	}
 	ROLLED
-	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
+	for (int n = WORK_ITEM; n < nodes; n += WORK_ITEMS)
 		s->trial[n] = s->y[n];
 	WAIT;
-	p->wide = whole_objective(s);
-	search_count(p, CHOOSE(due > zero, s->wide_probes, zero));
+	const real found = whole_objective(s);
+	p->wide = swept > 0 ? found : p->objective;
+	search_count(p, swept > 0 ? CHOOSE(due > zero, s->wide_probes, zero) : zero);
 	return longest;
 }
 
@@ -45,20 +50,23 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
 		s->base[n] = s->y[n];
 	WAIT;
+	/* Every `if` around a barrier doubles what PoCL compiles: where there are any, turn 0 goes through sweeps
+	 * of nothing, and what is not wanted is worked and left. */
+	const int colours = turn > 0 ? s->colour_count : 0;
+	const int wide_colours = turn > 0 ? s->wide_colours : 0;
+	real extra = zero;
+	const real h = CHOOSE(active, p->step, zero);
+	sweeps_begin(s);
+	const real wide = search_wide_sweep(s, wide_colours, turn, h, &extra, p);
+	longest = search_sweep(s, wide_colours, colours, h, &extra);
+	longest = CHOOSE(wide > longest, wide, longest);
+	search_gather(gathered, &longest, &extra);
 	if (turn > 0) {
-		real extra = zero;
-		const real h = CHOOSE(active, p->step, zero);
-		sweeps_begin(s);
-		const real wide = search_wide_sweep(s, turn, h, &extra, p);
-		longest = search_sweep(s, s->wide_colours, s->colour_count, h, &extra);
-		longest = CHOOSE(wide > longest, wide, longest);
-		search_gather(gathered, &longest, &extra);
 		search_count(p, extra);
 		going = active & (longest > zero);
 		p->moves += CHOOSE(going, one, zero);
 	}
-	if (ANY(going))
-		search_pattern(s, going, turn, p);
+	search_pattern(s, going, turn, p);
 	if (turn == 0)
 		return;
 	const mask pays = before - p->wide > SPREAD(WIDE_SHARE) * (p->wide - p->objective);

@@ -134,7 +134,7 @@ SHARED_FUNCTION void search_probe_place(search_model *model, int probe, const re
  * objective falls. Lanes that are not `going` keep everything. */
 SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int turn, search_progress *p)
 {
-	const int probe_limit = turn > 0 ? SEARCH_PROBE_LIMIT : 0;
+	const int probe_limit = !ANY(going) ? -1 : turn > 0 ? SEARCH_PROBE_LIMIT : 0;
 	const int slot = turn % (SEARCH_WAYS - 1); /* the oldest is forgotten */
 	const real zero = SPREAD(LITERAL(0.0));
 	const mask moved = going;
@@ -171,6 +171,8 @@ SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int turn,
 			break;
 	}
 	search_count(p, probes);
+	if (ALONE && !ANY(moved))
+		return;
 	search_extrapolate(s, best);
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {

@@ -58,7 +58,6 @@ static void test_textbook_and_other_fairness(void **state)
 		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false, false },
 		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false, false },
 		{ 0, BATTEN_F64, 1, 5, true, GRID_VARIATION, false, false },
-		{ 0, BATTEN_F32, 16, 1, false, GRID_VARIATION, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -68,7 +67,6 @@ static void test_interior_penalty(void **state)
 	(void)state;
 	search_case c = search_case_open("npl_parent", 0.01, true);
 	search_equal_penalised(&c, BATTEN_F64, 1, 6);
-	search_equal_penalised(&c, BATTEN_F32, 1, 16);
 	search_case_close(&c);
 }
 
