@@ -33,7 +33,8 @@ struct node_faults {
 	size_t values, bounds, weights;
 };
 
-INLINED bool is_finite(double value)
+/* A number, not a bool: both compilers then see that `&` is meant. */
+INLINED int is_finite(double value)
 {
 	return value - value == 0.0;
 }

@@ -38,7 +38,7 @@ typedef struct block_progress {
 	real weight;                /* of staying, on the diagonals of the tables */
 	real damping;               /* of the tables: what their diagonals are raised by, as a part */
 	real tries;                 /* of the last iteration */
-	real promise;               /* of the first trial, by the slope */
+	real promise;               /* of the whole way, by the slope, whatever the box stops of it */
 	real fall;                  /* of the objective along the last move, by its slope; 0: no move */
 	real inverse[BLOCK_MEMORY]; /* 1 / (move . change) of each pair, newest first; 0: not used */
 	real old_1, old_2, older;   /* move . change of pairs: 1 with 0, 2 with 0, 2 with 1 */
@@ -193,6 +193,7 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 	const real square = block_total(s, 2);
 	const mask goes = square > zero;
 	p->stiffness = CHOOSE(goes, fall / CHOOSE(goes, square, SPREAD(LITERAL(1.0))), zero);
+	p->promise = fall;
 	WAIT;
 	return longest;
 }
@@ -304,8 +305,6 @@ SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
 		const real shorter = CHOOSE(bottom > middle, middle, CHOOSE(bottom < least, least, bottom));
 		p->step = CHOOSE(trying, trial.longest, p->step);
 		p->fall = CHOOSE(good, -trial.promise, p->fall);
-		if (turns == 0)
-			p->promise = trial.promise;
 		p->tries += CHOOSE(trying, one, zero);
 		found = CHOOSE(good, trial.objective, found);
 		gain = gain | good;
@@ -366,9 +365,10 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	const mask bare = (p->inverse[0] == zero) & (p->inverse[1] == zero) & (p->inverse[2] == zero);
 	const mask still = (p->working > zero) & (p->fall == zero);
 	/* Without a gain the memory is at fault, if there is one, then offsets that the box stopped on their
-	 * way while their neighbours went on: steps of damped tables part from them less. */
+	 * way while their neighbours went on: steps of damped tables part from them less. What the trial itself
+	 * promises says nothing then: beside offsets a rounding off their bounds it may go uphill. */
 	const mask done = (longest <= limits.last_step) | (p->damping > SPREAD(BLOCK_DAMPING_MOST)) |
-	                  (-p->promise <= SPREAD(BLOCK_CALM_PART) * p->objective);
+	                  (p->promise <= SPREAD(BLOCK_CALM_PART) * p->objective);
 	const mask over = (still & bare & done) | (gain & (p->step <= limits.last_step)) |
 	                  (p->calm >= SPREAD(BLOCK_CALM));
 	block_damp(p, still & bare, gain);

@@ -83,10 +83,11 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 		real line = SPREAD(LITERAL(0.0));
 		ROLLED
 		for (int i = 0; i < s->stations; i++) {
-			const int node = node_of(s, i, k);
 			line += trial_objective(s, i, k);
-			if (GRID_PENALTY)
+			if (GRID_PENALTY) {
+				const int node = node_of(s, i, k);
 				line += node_penalty(s->penalty, s->trial[node], s->lower[node], s->upper[node]);
+			}
 		}
 		s->lines[k] = line;
 	}

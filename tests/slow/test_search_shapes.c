@@ -31,7 +31,6 @@ static void test_work_groups(void **state)
 {
 	(void)state;
 	static const search_shape shapes[] = {
-		{ 0, BATTEN_F64, 1, 7, false, GRID_BENDING, false, false },
 		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false, false },
 		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false, false },
 	};

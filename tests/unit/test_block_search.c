@@ -236,6 +236,50 @@ static void test_robust_against_noise(void **state)
 	batten_context_destroy(context);
 }
 
+/* Offsets of which many are held by bounds at the minimum, begun a rounding, or little more, off these: they
+ * stop at once on their way, and what their lines would gain with them is not the end of the search. */
+static void test_begins_beside_bounds(void **state)
+{
+	(void)state;
+	static const double rooms[] = { 1e-13, 5e-8, 1e-5 }; /* half-beams */
+	search_case c = search_case_open("wigley_noisy", 0.01, true);
+	const batten_search_options options = block_options(BATTEN_F64);
+	double *y = calloc(c.nodes, sizeof *y);
+	double *start = calloc(c.nodes, sizeof *start);
+	assert_true(y && start);
+	for (size_t run = 0; run < 6; run++) {
+		batten_search_problem problem = search_case_problem(&c, 1.0, run < 3 ? 40.0 : 1e4);
+		const double room = rooms[run % 3] * c.half_beam_m;
+		batten_search_result whole, again;
+		assert_int_equal(
+			batten_search_batch(c.context, &c.grid, 1, &problem, &options, y, &whole, NULL),
+			BATTEN_OK);
+		size_t held = 0;
+		for (size_t n = 0; n < c.nodes; n++) {
+			const double middle = 0.5 * (c.lower_m[n] + c.upper_m[n]);
+			const bool at_bound = y[n] <= c.lower_m[n] || y[n] >= c.upper_m[n];
+			if (!(c.lower_m[n] < c.upper_m[n]))
+				start[n] = y[n];
+			else if (at_bound)
+				start[n] = y[n] + (y[n] < middle ? room : -room);
+			else
+				start[n] = y[n] + 0.1 * (middle - y[n]);
+			held += at_bound && c.lower_m[n] < c.upper_m[n];
+		}
+		assert_true(held > 20);
+		problem.start_m = start;
+		assert_int_equal(
+			batten_search_batch(c.context, &c.grid, 1, &problem, &options, y, &again, NULL),
+			BATTEN_OK);
+		print_message("%zu held, room %.0e: %u iterations, %.2e above the other end\n", held, room,
+		              again.iterations, again.objective_end / whole.objective_end - 1.0);
+		assert_true(fabs(again.objective_end / whole.objective_end - 1.0) < 1e-8);
+	}
+	free(start);
+	free(y);
+	search_case_close(&c);
+}
+
 /* Slopes by formula end where probing does. */
 static void test_slopes_by_formula(void **state)
 {
@@ -383,6 +427,7 @@ int main(void)
 		cmocka_unit_test(test_grids_of_other_kinds),
 		cmocka_unit_test(test_iterations_on_finer_grids),
 		cmocka_unit_test(test_robust_against_noise),
+		cmocka_unit_test(test_begins_beside_bounds),
 		cmocka_unit_test(test_slopes_by_formula),
 		cmocka_unit_test(test_stream),
 		cmocka_unit_test(test_refusals),

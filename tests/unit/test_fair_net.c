@@ -430,8 +430,9 @@ static void test_refusals(void **state)
 	options = net_options(8, 7);
 	options.variables = BATTEN_VARIABLES_OFFSETS;
 	options.fairness = BATTEN_FAIRNESS_VARIATION;
-	refuse(*state, hull, &options, BATTEN_USAGE, "--variables net");
-	options.fairness = BATTEN_FAIRNESS_BENDING;
+	options.search.longitudinal_weight = 2.0;
+	refuse(*state, hull, &options, BATTEN_USAGE, "principal directions");
+	options = net_options(8, 7);
 	options.variables = (batten_variables)7;
 	refuse(*state, hull, &options, BATTEN_USAGE, "variables 7");
 	options = net_options(8, 7);

@@ -243,7 +243,7 @@ static batten_status polish_once(batten_context *context, void *user)
 	const batten_net_options options = options_of(BATTEN_FAIRNESS_BENDING, 1);
 	batten_certificate found;
 	memcpy(o->y, o->c->target, o->c->poles * sizeof *o->y);
-	return batten_net_polish_batch(context, 1, &problem, &options, 1e-9, o->y, &found);
+	return batten_net_polish_batch(context, 1, &problem, &options, 1e9, o->y, &found);
 }
 
 /* Every allocation fails once. */
