@@ -84,11 +84,11 @@ static void mark_terms(const search_plan *plan, const batten_search_problem *pro
 		return;
 	memset(has + (begin - first), 1, end - begin);
 	for (size_t b = 0; b < 3 && problem->nodes; b++) {
-		const uint8_t *node = problem->nodes + (begin - row + b * row);
+		const uint8_t *aft = problem->nodes + (begin - row + b * row - 1);
 		for (size_t c = 0; c < end - begin; c++)
-			has[begin - first + c] &= (uint8_t)((node[c] != BATTEN_NODE_OUTSIDE) &
-			                                    (node[c - 1] != BATTEN_NODE_OUTSIDE) &
-			                                    (node[c + 1] != BATTEN_NODE_OUTSIDE));
+			has[begin - first + c] &= (uint8_t)((aft[c] != BATTEN_NODE_OUTSIDE) &
+			                                    (aft[c + 1] != BATTEN_NODE_OUTSIDE) &
+			                                    (aft[c + 2] != BATTEN_NODE_OUTSIDE));
 	}
 	for (size_t n = begin / row * row; n < end; n += row) {
 		if (n >= first)
