@@ -5,10 +5,7 @@
 #include "batch/search_pack.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-static const size_t none = SIZE_MAX;
 
 /* Part of its box's width within which an interior penalty leaves an offset that its bound holds. */
 #define INSIDE 1e-3
@@ -115,7 +112,7 @@ static size_t number_unknowns(certifier *c, double *last)
 	const double *upper = array_of(c, SEARCH_ARRAY_UPPER);
 	size_t count = 0;
 	for (size_t n = 0; n < c->plan->node_count; n++) {
-		c->number[n] = none;
+		c->number[n] = NEWTON_HELD;
 		c->step[n] = 0.0;
 	}
 	for (size_t o = 0; o < c->plan->station_count * c->plan->waterline_count; o++) {
@@ -135,55 +132,20 @@ static size_t number_unknowns(certifier *c, double *last)
 	return count;
 }
 
-/* The furthest that two unknowns of one term lie apart. */
-static size_t band_width(const certifier *c)
+static size_t band_width(const void *of)
 {
+	const certifier *c = (const certifier *)of;
+	const size_t count = grid_stencil_count(c->plan);
 	size_t width = 0;
 	for (size_t node = 0; node < c->plan->node_count; node++) {
 		size_t places[GRID_STENCIL_MOST];
-		size_t least = none;
-		size_t most = 0;
 		if (!(array_of(c, SEARCH_ARRAY_BEND)[node] > 0.0))
 			continue;
-		grid_stencil_places(grid_stencil_count(c->plan), node, c->plan->station_count + 2, places);
-		for (size_t n = 0; n < grid_stencil_count(c->plan); n++) {
-			const size_t number = c->number[places[n]];
-			if (number == none)
-				continue;
-			least = number < least ? number : least;
-			most = number > most ? number : most;
-		}
-		if (least != none && most - least > width)
-			width = most - least;
+		grid_stencil_places(count, node, c->plan->station_count + 2, places);
+		const size_t reach = newton_reach(count, places, c->number);
+		width = reach > width ? reach : width;
 	}
 	return width;
-}
-
-/* C^T S C of a term into the band: what each pair of its nodes has of the Hessian. */
-static void add_term(const certifier *c, size_t width, const grid_stencil *stencil,
-                     const size_t places[GRID_STENCIL_MOST], const jet *term, double *band)
-{
-	for (size_t n = 0; n < stencil->count; n++) {
-		const size_t row = c->number[places[n]];
-		double by[GRID_TERM_VARIABLES_MOST] = { 0.0 };
-		if (row == none)
-			continue;
-		for (int i = 0, at = 0; i < stencil->variables; i++)
-			for (int j = 0; j <= i; j++, at++) {
-				by[j] += stencil->weight[i][n] * term->second[at];
-				if (i != j)
-					by[i] += stencil->weight[j][n] * term->second[at];
-			}
-		for (size_t m = 0; m < stencil->count; m++) {
-			const size_t column = c->number[places[m]];
-			if (column == none || column > row)
-				continue;
-			double sum = 0.0;
-			for (int v = 0; v < stencil->variables; v++)
-				sum += by[v] * stencil->weight[v][m];
-			band[row * (width + 1) + width - (row - column)] += sum;
-		}
-	}
 }
 
 static void assemble(const void *of, size_t width, double *band)
@@ -194,35 +156,14 @@ static void assemble(const void *of, size_t width, double *band)
 		grid_stencil stencil;
 		size_t places[GRID_STENCIL_MOST];
 		jet term;
-		if (c->number[node] != none)
+		if (c->number[node] != NEWTON_HELD)
 			band[c->number[node] * (width + 1) + width] += 2.0 * close[node];
-		if (term_of(c, node, &stencil, places, &term))
-			add_term(c, width, &stencil, places, &term, band);
+		if (!term_of(c, node, &stencil, places, &term))
+			continue;
+		const newton_term added = { stencil.count, places, &stencil.weight[0][0], GRID_STENCIL_MOST,
+			                        &term };
+		newton_add_term(&added, c->number, width, band);
 	}
-}
-
-/* The gap estimate; the step of every node that is free. */
-static batten_status estimate(certifier *c, double last, batten_certificate *out)
-{
-	batten_context *context = c->plan->context;
-	double *step = batten_allocate(context, out->free_count, sizeof *step);
-	if (!step)
-		return BATTEN_MEMORY;
-	for (size_t n = 0; n < c->plan->node_count; n++)
-		if (c->number[n] != none)
-			step[c->number[n]] = c->gradient[n];
-	const newton_system system = { .context = context,
-		                           .count = out->free_count,
-		                           .width = band_width(c),
-		                           .last = last,
-		                           .assemble = assemble,
-		                           .of = c };
-	const batten_status status = newton_estimate(&system, step, out);
-	for (size_t n = 0; n < c->plan->node_count; n++)
-		if (c->number[n] != none)
-			c->step[n] = step[c->number[n]];
-	batten_release(context, step);
-	return status;
 }
 
 static void pack_end(certifier *c, const double *y_m)
@@ -253,23 +194,23 @@ static double unweighed(const certifier *c, double fairness)
 static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	certifier *c = (certifier *)of;
-	const search_plan *plan = c->plan;
 	*out = (batten_certificate){ .gap_estimate = NAN };
 	pack_end(c, y_m);
 	out->objective = differentiate(c, &out->fairness);
 	out->fairness = unweighed(c, out->fairness);
 	double last = 0.0;
-	out->free_count = number_unknowns(c, &last);
-	double square = 0.0;
-	for (size_t n = 0; n < plan->node_count; n++)
-		if (c->number[n] != none)
-			square += c->gradient[n] * c->gradient[n];
-	out->gradient_per_m = sqrt(square);
-	if (!isfinite(out->objective) || !isfinite(square)) {
-		(void)snprintf(out->message, sizeof out->message, "the objective is not finite");
-		return BATTEN_OK;
-	}
-	return estimate(c, last, out);
+	const size_t count = number_unknowns(c, &last);
+	const newton_system system = { .context = c->plan->context,
+		                           .places = c->plan->node_count,
+		                           .number = c->number,
+		                           .gradient = c->gradient,
+		                           .step = c->step,
+		                           .count = count,
+		                           .last = last,
+		                           .width = band_width,
+		                           .assemble = assemble,
+		                           .of = c };
+	return newton_judge(&system, out);
 }
 
 batten_status certifier_run(certifier *c, const batten_search_problem *problem, const double *y_m,

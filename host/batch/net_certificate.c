@@ -6,10 +6,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-static const size_t none = SIZE_MAX;
 
 void net_certifier_release(net_certifier *c)
 {
@@ -123,7 +119,7 @@ static size_t number_unknowns(net_certifier *c, double *last)
 		const double near = c->rounding * (fabs(start) + fabs(gone) + fabs(c->item->target_y_m[n]));
 		const bool down = gone <= c->rooms[n].down + near && c->gradient[n] >= 0.0;
 		const bool up = gone >= c->rooms[n].up - near && c->gradient[n] <= 0.0;
-		c->number[n] = none;
+		c->number[n] = NEWTON_HELD;
 		c->step[n] = 0.0;
 		if (plan->leader[n] != n || !(c->rooms[n].down < c->rooms[n].up))
 			continue;
@@ -134,67 +130,25 @@ static size_t number_unknowns(net_certifier *c, double *last)
 			c->number[n] = count++;
 		}
 	}
-	for (size_t n = 0; n < poles; n++)
+	for (size_t n = 0; n < poles; n++) {
 		c->number[n] = c->number[plan->leader[n]];
+		c->gradient[n] = c->gradient[plan->leader[n]];
+	}
 	return count;
 }
 
-static size_t band_width(const net_certifier *c)
+static size_t band_width(const void *of)
 {
+	const net_certifier *c = (const net_certifier *)of;
 	size_t width = 0;
 	for (size_t line = 0; line < c->plan.v.count; line += c->plan.v.points)
 		for (size_t i = 0; i < c->plan.u.count; i += c->plan.u.points) {
 			net_patch patch;
-			size_t least = none;
-			size_t most = 0;
 			net_patch_of(&c->plan, line, i, &patch);
-			for (size_t n = 0; n < patch.count; n++) {
-				const size_t number = c->number[patch.poles[n]];
-				if (number == none)
-					continue;
-				least = number < least ? number : least;
-				most = number > most ? number : most;
-			}
-			if (least != none && most - least > width)
-				width = most - least;
+			const size_t reach = newton_reach(patch.count, patch.poles, c->number);
+			width = reach > width ? reach : width;
 		}
 	return width;
-}
-
-/* S w of a term: what each of its second derivatives meets at a pole. */
-static void meet(const net_patch *patch, size_t n, const jet *term,
-                 double by[NET_TERM_VARIABLES_MOST])
-{
-	for (int i = 0, at = 0; i < term->variables; i++) {
-		by[i] = 0.0;
-		for (int j = 0; j <= i; j++, at++) {
-			by[j] += patch->weight[i][n] * term->second[at];
-			if (i != j)
-				by[i] += patch->weight[j][n] * term->second[at];
-		}
-	}
-}
-
-/* What each pair of a sample's poles has of the Hessian, into the band. */
-static void add_term(const net_certifier *c, size_t width, const net_patch *patch, double close,
-                     const jet *term, double *band)
-{
-	for (size_t n = 0; n < patch->count; n++) {
-		const size_t row = c->number[patch->poles[n]];
-		double by[NET_TERM_VARIABLES_MOST];
-		if (row == none)
-			continue;
-		meet(patch, n, term, by);
-		for (size_t m = 0; m < patch->count; m++) {
-			const size_t column = c->number[patch->poles[m]];
-			if (column == none || column > row)
-				continue;
-			double sum = 2.0 * close * patch->at[n] * patch->at[m];
-			for (int d = 0; d < term->variables; d++)
-				sum += by[d] * patch->weight[d][m];
-			band[row * (width + 1) + width - (row - column)] += sum;
-		}
-	}
 }
 
 static void assemble(const void *of, size_t width, double *band)
@@ -207,33 +161,17 @@ static void assemble(const void *of, size_t width, double *band)
 			double off;
 			jet term = { 0 };
 			net_patch_of(&c->plan, line, i, &patch);
-			(void)term_of(c, &patch, sample, &off, &term);
-			add_term(c, width, &patch, sample[NET_SAMPLE_CLOSE], &term, band);
+			if (term_of(c, &patch, sample, &off, &term)) {
+				const newton_term bends = { patch.count, patch.poles, &patch.weight[0][0],
+					                        NET_PATCH_POLES, &term };
+				newton_add_term(&bends, c->number, width, band);
+			}
+			const jet square = jet_scale(jet_square(jet_variable(off, 0, 1)),
+			                             sample[NET_SAMPLE_CLOSE]);
+			const newton_term close = { patch.count, patch.poles, patch.at, NET_PATCH_POLES,
+				                        &square };
+			newton_add_term(&close, c->number, width, band);
 		}
-}
-
-static batten_status estimate(net_certifier *c, double last, batten_certificate *out)
-{
-	batten_context *context = c->plan.context;
-	const size_t poles = net_plan_poles(&c->plan);
-	double *step = batten_allocate(context, out->free_count, sizeof *step);
-	if (!step)
-		return BATTEN_MEMORY;
-	for (size_t n = 0; n < poles; n++)
-		if (c->number[n] != none && c->plan.leader[n] == n)
-			step[c->number[n]] = c->gradient[n];
-	const newton_system system = { .context = context,
-		                           .count = out->free_count,
-		                           .width = band_width(c),
-		                           .last = last,
-		                           .assemble = assemble,
-		                           .of = c };
-	const batten_status status = newton_estimate(&system, step, out);
-	for (size_t n = 0; n < poles; n++)
-		if (c->number[n] != none)
-			c->step[n] = step[c->number[n]];
-	batten_release(context, step);
-	return status;
 }
 
 /* Fairness as an integral, without its weight. */
@@ -250,22 +188,23 @@ static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 	const size_t poles = net_plan_poles(&c->plan);
 	double fairness = 0.0;
 	double last = 0.0;
-	double square = 0.0;
 	*out = (batten_certificate){ .gap_estimate = NAN };
 	for (size_t n = 0; n < poles; n++)
 		c->way[n] = y_m[n] - c->item->target_y_m[n];
 	out->objective = differentiate(c, &fairness);
 	out->fairness = unweighed(c, fairness);
-	out->free_count = number_unknowns(c, &last);
-	for (size_t n = 0; n < poles; n++)
-		if (c->number[n] != none && c->plan.leader[n] == n)
-			square += c->gradient[n] * c->gradient[n];
-	out->gradient_per_m = sqrt(square);
-	if (!isfinite(out->objective) || !isfinite(square)) {
-		(void)snprintf(out->message, sizeof out->message, "the objective is not finite");
-		return BATTEN_OK;
-	}
-	return estimate(c, last, out);
+	const size_t count = number_unknowns(c, &last);
+	const newton_system system = { .context = c->plan.context,
+		                           .places = poles,
+		                           .number = c->number,
+		                           .gradient = c->gradient,
+		                           .step = c->step,
+		                           .count = count,
+		                           .last = last,
+		                           .width = band_width,
+		                           .assemble = assemble,
+		                           .of = c };
+	return newton_judge(&system, out);
 }
 
 static double go(void *of, const double *from, double part, double *y_m)

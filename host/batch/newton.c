@@ -23,45 +23,128 @@ batten_certificate newton_refused(const char *fault)
 	return refused;
 }
 
+size_t newton_reach(size_t count, const size_t *places, const size_t *number)
+{
+	size_t least = NEWTON_HELD;
+	size_t most = 0;
+	for (size_t n = 0; n < count; n++) {
+		const size_t unknown = number[places[n]];
+		if (unknown == NEWTON_HELD)
+			continue;
+		least = unknown < least ? unknown : least;
+		most = unknown > most ? unknown : most;
+	}
+	return least == NEWTON_HELD ? 0 : most - least;
+}
+
+/* S w of a term: what each of its second derivatives meets at a place. */
+static void meet(const newton_term *term, size_t n, double by[JET_VARIABLES_MOST])
+{
+	for (int i = 0, at = 0; i < term->derivatives->variables; i++) {
+		by[i] = 0.0;
+		for (int j = 0; j <= i; j++, at++) {
+			const double second = term->derivatives->second[at];
+			by[j] += term->weight[(size_t)i * term->stride + n] * second;
+			if (i != j)
+				by[i] += term->weight[(size_t)j * term->stride + n] * second;
+		}
+	}
+}
+
+void newton_add_term(const newton_term *term, const size_t *number, size_t width, double *band)
+{
+	for (size_t n = 0; n < term->count; n++) {
+		const size_t row = number[term->places[n]];
+		double by[JET_VARIABLES_MOST];
+		if (row == NEWTON_HELD)
+			continue;
+		meet(term, n, by);
+		for (size_t m = 0; m < term->count; m++) {
+			const size_t column = number[term->places[m]];
+			if (column == NEWTON_HELD || column > row)
+				continue;
+			double sum = 0.0;
+			for (int v = 0; v < term->derivatives->variables; v++)
+				sum += by[v] * term->weight[(size_t)v * term->stride + m];
+			band[row * (width + 1) + width - (row - column)] += sum;
+		}
+	}
+}
+
 /* 1/2 g^T H^-1 g; NaN where H is not positive definite. */
-static double decrement(const newton_system *system, double *band, const double *gradient,
+static double decrement(size_t count, size_t width, double *band, const double *gradient,
                         double *step)
 {
 	double sum = 0.0;
-	if (band_factor(system->count, system->width, band) < system->count)
+	if (band_factor(count, width, band) < count)
 		return NAN;
-	memcpy(step, gradient, system->count * sizeof *step);
-	band_solve(system->count, system->width, band, step);
-	for (size_t n = 0; n < system->count; n++)
+	memcpy(step, gradient, count * sizeof *step);
+	band_solve(count, width, band, step);
+	for (size_t n = 0; n < count; n++)
 		sum += gradient[n] * step[n];
 	return 0.5 * sum;
 }
 
-batten_status newton_estimate(const newton_system *system, double *step, batten_certificate *out)
+/* gradient, step: by unknown; step is the gradient before. */
+static batten_status estimate(const newton_system *system, const double *gradient, double *step,
+                              batten_certificate *out)
 {
 	batten_context *context = system->context;
+	const size_t count = system->count;
 	/* An objective of 0 cannot fall. */
 	const double scale = out->objective > 0.0 ? 1.0 / out->objective : 0.0;
-	if (system->count == 0) {
+	if (count == 0) {
 		out->gap_estimate = system->last * scale;
 		return BATTEN_OK;
 	}
-	if (system->width + 1 > BAND_LIMIT / system->count) {
+	const size_t width = system->width(system->of);
+	if (width + 1 > BAND_LIMIT / count) {
 		say(out, "the factor of the Hessian would be too large");
 		return BATTEN_OK;
 	}
-	double *band = batten_allocate(context, system->count, (system->width + 1) * sizeof *band);
-	double *gradient = batten_allocate(context, system->count, sizeof *gradient);
-	const batten_status status = band && gradient ? BATTEN_OK : BATTEN_MEMORY;
-	if (status == BATTEN_OK) {
-		memcpy(gradient, step, system->count * sizeof *gradient);
-		system->assemble(system->of, system->width, band);
-		out->gap_estimate = (decrement(system, band, gradient, step) + system->last) * scale;
-		if (isnan(out->gap_estimate))
-			say(out, "the Hessian is not positive definite over what is free");
-	}
+	double *band = batten_allocate(context, count, (width + 1) * sizeof *band);
+	if (!band)
+		return BATTEN_MEMORY;
+	system->assemble(system->of, width, band);
+	out->gap_estimate = (decrement(count, width, band, gradient, step) + system->last) * scale;
+	if (isnan(out->gap_estimate))
+		say(out, "the Hessian is not positive definite over what is free");
 	batten_release(context, band);
+	return BATTEN_OK;
+}
+
+/* The norm of the gradient over the unknowns, which stand in `gradient` then, then the gap. */
+static batten_status judge(const newton_system *system, double *gradient, double *step,
+                           batten_certificate *out)
+{
+	double square = 0.0;
+	for (size_t n = 0; n < system->places; n++)
+		if (system->number[n] != NEWTON_HELD)
+			gradient[system->number[n]] = step[system->number[n]] = system->gradient[n];
+	for (size_t n = 0; n < system->count; n++)
+		square += gradient[n] * gradient[n];
+	out->free_count = system->count;
+	out->gradient_per_m = sqrt(square);
+	if (!isfinite(out->objective) || !isfinite(square)) {
+		say(out, "the objective is not finite");
+		return BATTEN_OK;
+	}
+	const batten_status status = estimate(system, gradient, step, out);
+	for (size_t n = 0; n < system->places; n++)
+		if (system->number[n] != NEWTON_HELD)
+			system->step[n] = step[system->number[n]];
+	return status;
+}
+
+batten_status newton_judge(const newton_system *system, batten_certificate *out)
+{
+	batten_context *context = system->context;
+	double *gradient = batten_allocate(context, system->count, sizeof *gradient);
+	double *step = batten_allocate(context, system->count, sizeof *step);
+	const batten_status status = gradient && step ? judge(system, gradient, step, out)
+	                                              : BATTEN_MEMORY;
 	batten_release(context, gradient);
+	batten_release(context, step);
 	return status;
 }
 

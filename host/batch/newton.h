@@ -3,22 +3,45 @@
 #ifndef BATTEN_BATCH_NEWTON_H
 #define BATTEN_BATCH_NEWTON_H
 
+#include "batch/jet.h"
 #include "core/context.h"
 
-/* The Hessian over the free unknowns, as whoever knows the objective writes it. */
+/* In place of the number of an unknown: what stands there is held. */
+#define NEWTON_HELD SIZE_MAX
+
+/* One term of the objective: its derivatives, and the places they are sums over. */
+typedef struct newton_term {
+	size_t count;
+	const size_t *places;
+	const double *weight; /* of place n in derivative v: weight[v * stride + n] */
+	size_t stride;
+	const jet *derivatives;
+} newton_term;
+
+/* The furthest that two unknowns at these places lie apart. number: by place. */
+size_t newton_reach(size_t count, const size_t *places, const size_t *number);
+
+/* What each pair of the term's places has of the Hessian, into the band (core/band.h). */
+void newton_add_term(const newton_term *term, const size_t *number, size_t width, double *band);
+
+/* The objective about an end, place by place. */
 typedef struct newton_system {
 	batten_context *context;
-	size_t count; /* of the unknowns */
-	size_t width; /* the furthest that two unknowns of one term lie apart */
-	double last;  /* what those held at a bound still gain, beside the parabola */
-	void (*assemble)(const void *of, size_t width,
-	                 double *band); /* adds to the band, as core/band.h */
+	size_t places;
+	const size_t
+		*number; /* of the unknown at a place, or NEWTON_HELD; places that go together share
+	                           one */
+	const double *gradient; /* by the unknown at a place; what is held has one too */
+	double *step;           /* gets, where there is an unknown, y less the bottom of the parabola */
+	size_t count;           /* of the unknowns */
+	double last;            /* what those held at a bound still gain, beside the parabola */
+	size_t (*width)(const void *of); /* newton_reach() over all terms */
+	void (*assemble)(const void *of, size_t width, double *band); /* adds all terms */
 	const void *of;
 } newton_system;
 
-/* Fills gap_estimate and message; out->objective is known. step: the gradient over the unknowns, and
- * afterwards the way back to the minimum of the parabola. Errors: MEMORY. */
-batten_status newton_estimate(const newton_system *system, double *step, batten_certificate *out);
+/* Fills free_count, gradient_per_m, gap_estimate and message; out->objective is known. Errors: MEMORY. */
+batten_status newton_judge(const newton_system *system, batten_certificate *out);
 
 /* Something to go to the minimum of. */
 typedef struct newton_way {
