@@ -78,6 +78,34 @@ oracle_problem search_case_oracle(const search_case *c, double w1, double w2)
 		                     .h = c->half_beam_m };
 }
 
+double *search_case_room(const search_case *c)
+{
+	double *numbers = calloc(c->nodes, sizeof *numbers);
+	assert_non_null(numbers);
+	return numbers;
+}
+
+batten_certificate search_case_certify(const search_case *c, const batten_search_problem *problem,
+                                       const batten_search_options *options, const double *y)
+{
+	batten_certificate found;
+	assert_int_equal(
+		batten_search_certify_batch(c->context, &c->grid, 1, problem, options, y, &found),
+		BATTEN_OK);
+	return found;
+}
+
+batten_search_result search_case_run(const search_case *c, const batten_search_problem *problem,
+                                     const batten_search_options *options, double *y)
+{
+	batten_search_result result;
+	const batten_status status = batten_search_batch(c->context, &c->grid, 1, problem, options, y,
+	                                                 &result, NULL);
+	assert_true(status == BATTEN_OK || status == BATTEN_INCOMPLETE);
+	assert_int_not_equal(result.end, BATTEN_SEARCH_REFUSED);
+	return result;
+}
+
 double search_case_rms(const search_case *c, const double *y)
 {
 	const double *start = batten_hull_y_m(c->hull);

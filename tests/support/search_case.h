@@ -24,6 +24,17 @@ void search_case_close(search_case *c);
 batten_search_problem search_case_problem(const search_case *c, double w1, double w2);
 oracle_problem search_case_oracle(const search_case *c, double w1, double w2);
 
+/* A number a node, all 0; to be freed. */
+double *search_case_room(const search_case *c);
+
+/* The certificate of an end, which is sound. */
+batten_certificate search_case_certify(const search_case *c, const batten_search_problem *problem,
+                                       const batten_search_options *options, const double *y);
+
+/* A run that ends where it ends. */
+batten_search_result search_case_run(const search_case *c, const batten_search_problem *problem,
+                                     const batten_search_options *options, double *y);
+
 /* Root mean square of y - y0 over the offsets above 0. */
 double search_case_rms(const search_case *c, const double *y);
 

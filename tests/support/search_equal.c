@@ -66,15 +66,20 @@ static void run_engine(const search_case *c, const search_shape *shape,
 	search_plan_destroy(plan);
 }
 
+static double *room_for_all(const search_case *c)
+{
+	double *numbers = calloc(EQUAL_COUNT * c->nodes, sizeof *numbers);
+	assert_non_null(numbers);
+	return numbers;
+}
+
 void search_equal_check(const search_case *c, const search_shape *shape)
 {
 	batten_search_problem problems[EQUAL_COUNT];
 	batten_search_result results[EQUAL_COUNT];
 	batten_search_result known[EQUAL_COUNT];
-	double *y = calloc(EQUAL_COUNT * c->nodes, sizeof *y);
-	double *known_y = calloc(EQUAL_COUNT * c->nodes, sizeof *known_y);
-	assert_non_null(y);
-	assert_non_null(known_y);
+	double *y = room_for_all(c);
+	double *known_y = room_for_all(c);
 	search_equal_problems(c, problems);
 	batten_search_options options;
 	batten_search_options_default(&options);
@@ -95,10 +100,8 @@ void search_equal_penalised(const search_case *c, batten_precision precision, un
 {
 	batten_search_problem problems[EQUAL_COUNT];
 	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
-	double *y = calloc(EQUAL_COUNT * c->nodes, sizeof *y);
-	double *known_y = calloc(EQUAL_COUNT * c->nodes, sizeof *known_y);
-	assert_non_null(y);
-	assert_non_null(known_y);
+	double *y = room_for_all(c);
+	double *known_y = room_for_all(c);
 	search_equal_problems(c, problems);
 	batten_search_options options;
 	batten_search_options_default(&options);

@@ -22,33 +22,6 @@ static batten_search_options reference_options(void)
 	return options;
 }
 
-static batten_certificate certify(const search_case *c, const batten_search_problem *problem,
-                                  const batten_search_options *options, const double *y)
-{
-	batten_certificate found;
-	assert_int_equal(
-		batten_search_certify_batch(c->context, &c->grid, 1, problem, options, y, &found),
-		BATTEN_OK);
-	return found;
-}
-
-static double *room_for(const search_case *c)
-{
-	double *numbers = calloc(c->nodes, sizeof *numbers);
-	assert_non_null(numbers);
-	return numbers;
-}
-
-/* A run that ends where it ends. */
-static void search(const search_case *c, const batten_search_problem *problem,
-                   const batten_search_options *options, double *y)
-{
-	batten_search_result result;
-	const batten_status status = batten_search_batch(c->context, &c->grid, 1, problem, options, y,
-	                                                 &result, NULL);
-	assert_true(status == BATTEN_OK || status == BATTEN_INCOMPLETE);
-}
-
 /* Objective and norm of the gradient over the free offsets are the oracle's, away from the minimum. */
 static void test_gradient_is_the_oracles(void **state)
 {
@@ -58,12 +31,12 @@ static void test_gradient_is_the_oracles(void **state)
 		const batten_search_problem problem = search_case_problem(&c, 1.0, 1e3);
 		const oracle_problem known = search_case_oracle(&c, 1.0, 1e3);
 		batten_search_options options = reference_options();
-		double *y = room_for(&c);
+		double *y = search_case_room(&c);
 		long double *gradient = calloc(c.nodes, sizeof *gradient);
 		assert_non_null(gradient);
 		options.iteration_limit = 2;
-		search(&c, &problem, &options, y);
-		const batten_certificate found = certify(&c, &problem, &options, y);
+		(void)search_case_run(&c, &problem, &options, y);
+		const batten_certificate found = search_case_certify(&c, &problem, &options, y);
 		assert_true(oracle_gradient(&known, y, gradient));
 		long double square = 0.0L;
 		size_t count = 0;
@@ -97,11 +70,11 @@ static void check_gap(const search_case *c, const char *name, double w2)
 	const batten_search_problem problem = search_case_problem(c, 1.0, w2);
 	const oracle_problem known = search_case_oracle(c, 1.0, w2);
 	oracle_minimum minimum;
-	double *y = room_for(c);
+	double *y = search_case_room(c);
 	assert_true(oracle_minimise(&known, y, &minimum));
 	batten_search_options whole = reference_options();
 	whole.algorithm = BATTEN_ALGORITHM_MULTILEVEL; /* its steps end searches early as asked */
-	const batten_certificate best = certify(c, &problem, &whole, y);
+	const batten_certificate best = search_case_certify(c, &problem, &whole, y);
 	assert_true(fabs(best.gap_estimate) < 1e-14);
 	for (int run = 0; run < 6; run++) {
 		batten_search_options options = whole;
@@ -112,8 +85,8 @@ static void check_gap(const search_case *c, const char *name, double w2)
 			options.precision = run % 2 ? BATTEN_F64 : BATTEN_F32;
 		if (run > 3)
 			options.algorithm = BATTEN_ALGORITHM_BLOCK;
-		search(c, &problem, &options, y);
-		const batten_certificate found = certify(c, &problem, &options, y);
+		(void)search_case_run(c, &problem, &options, y);
+		const batten_certificate found = search_case_certify(c, &problem, &options, y);
 		const long double gap = oracle_objective(&known, y) / minimum.objective - 1.0L;
 		print_message("%s w2/w1 %g run %d: gap %.3Le, estimate %.3e, gradient %.3e /m\n", name, w2,
 		              run, gap, found.gap_estimate, found.gradient_per_m);
@@ -141,17 +114,17 @@ static void test_estimate_of_every_fairness(void **state)
 	(void)state;
 	search_case c = search_case_open("npl_parent", 0.01, true);
 	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e4);
-	double *y = room_for(&c);
+	double *y = search_case_room(&c);
 	for (int kind = 0; kind < 4; kind++) {
 		batten_search_options options = reference_options();
 		options.fairness = (batten_fairness)(kind % 3);
 		options.longitudinal_weight = kind > 0 ? 4.0 : 1.0;
 		options.last_step = 1e-9;
-		search(&c, &problem, &options, y);
-		const batten_certificate end = certify(&c, &problem, &options, y);
+		(void)search_case_run(&c, &problem, &options, y);
+		const batten_certificate end = search_case_certify(&c, &problem, &options, y);
 		options.last_step = kind == 2 ? 1e-5 : 2e-4;
-		search(&c, &problem, &options, y);
-		const batten_certificate early = certify(&c, &problem, &options, y);
+		(void)search_case_run(&c, &problem, &options, y);
+		const batten_certificate early = search_case_certify(&c, &problem, &options, y);
 		const double gap = early.objective / end.objective - 1.0;
 		print_message("kind %d: gap %.3e, estimate %.3e; at the end %.3e\n", kind, gap,
 		              early.gap_estimate, end.gap_estimate);
@@ -169,12 +142,12 @@ static void test_where_there_is_none(void **state)
 	search_case c = search_case_open("wigley_noisy", 1.2, false);
 	batten_search_problem problem = search_case_problem(&c, 1.0, 0.0);
 	const batten_search_options options = reference_options();
-	batten_certificate found = certify(&c, &problem, &options, problem.start_m);
+	batten_certificate found = search_case_certify(&c, &problem, &options, problem.start_m);
 	assert_true(isnan(found.gap_estimate));
 	assert_true(found.gradient_per_m > 0.0);
 	assert_non_null(strstr(found.message, "positive definite"));
 	problem.lower_m = problem.upper_m = problem.start_m;
-	found = certify(&c, &problem, &options, problem.start_m);
+	found = search_case_certify(&c, &problem, &options, problem.start_m);
 	assert_int_equal(found.free_count, 0);
 	assert_true(found.gap_estimate == 0.0 && found.gradient_per_m == 0.0);
 	search_case_close(&c);
@@ -214,7 +187,8 @@ static void test_batch(void **state)
 			assert_true(certificates[p].message[0] != '\0');
 			continue;
 		}
-		const batten_certificate alone = certify(&c, &problems[p], &options, y + p * c.nodes);
+		const batten_certificate alone = search_case_certify(&c, &problems[p], &options,
+		                                                     y + p * c.nodes);
 		assert_memory_equal(&alone.objective, &certificates[p].objective, sizeof(double));
 		assert_memory_equal(&alone.gap_estimate, &certificates[p].gap_estimate, sizeof(double));
 	}
@@ -240,8 +214,10 @@ static void test_polish(void **state)
 		for (size_t p = 0; p < COUNT; p++) {
 			problems[p] = search_case_problem(&c, 1.0, p % 2 ? 1e5 : 1e3);
 			options.iteration_limit = p < 2 ? 400 : 4;
-			search(&c, &problems[p], &options, y + p * c.nodes);
-			assert_true(certify(&c, &problems[p], &options, y + p * c.nodes).gap_estimate > 1e-12);
+			(void)search_case_run(&c, &problems[p], &options, y + p * c.nodes);
+			assert_true(
+				search_case_certify(&c, &problems[p], &options, y + p * c.nodes).gap_estimate >
+				1e-12);
 		}
 		memcpy(y + COUNT * c.nodes, y + 3 * c.nodes, c.nodes * sizeof *y);
 		assert_int_equal(batten_search_polish_batch(c.context, &c.grid, COUNT, problems, &options,

@@ -21,34 +21,6 @@ static batten_search_options options_of(unsigned iterations)
 	return options;
 }
 
-static batten_search_result search(const search_case *c, const batten_search_problem *problem,
-                                   const batten_search_options *options, double *y)
-{
-	batten_search_result result;
-	const batten_status status = batten_search_batch(c->context, &c->grid, 1, problem, options, y,
-	                                                 &result, NULL);
-	assert_true(status == BATTEN_OK || status == BATTEN_INCOMPLETE);
-	assert_int_not_equal(result.end, BATTEN_SEARCH_REFUSED);
-	return result;
-}
-
-static batten_certificate certify(const search_case *c, const batten_search_problem *problem,
-                                  const batten_search_options *options, const double *y)
-{
-	batten_certificate found;
-	assert_int_equal(
-		batten_search_certify_batch(c->context, &c->grid, 1, problem, options, y, &found),
-		BATTEN_OK);
-	return found;
-}
-
-static double *room_for(const search_case *c)
-{
-	double *numbers = calloc(c->nodes, sizeof *numbers);
-	assert_non_null(numbers);
-	return numbers;
-}
-
 static const char *const hulls[] = { "npl_parent", "bsra_trawler", "wigley", "highspeed_craft" };
 enum { HULL_COUNT = 4, SMOOTH_COUNT = 3 };
 
@@ -62,14 +34,15 @@ static void test_objective_is_the_measure(void **state)
 		const batten_search_options options = options_of(1);
 		batten_measure_options how;
 		batten_measures measures;
-		double *y = room_for(&c);
+		double *y = search_case_room(&c);
 		batten_measure_options_default(&how);
 		how.quadrature = BATTEN_QUADRATURE_TRAPEZOID;
 		assert_int_equal(batten_hull_measure(c.context, c.hull, &how, &measures), BATTEN_OK);
 		const double known = measures.energy_mvc_per_m2 * c.half_beam_m * c.half_beam_m;
-		const batten_search_result result = search(&c, &problem, &options, y);
+		const batten_search_result result = search_case_run(&c, &problem, &options, y);
 		assert_true(fabs(result.objective_start / known - 1.0) < 1e-11);
-		const batten_certificate found = certify(&c, &problem, &options, problem.start_m);
+		const batten_certificate found = search_case_certify(&c, &problem, &options,
+		                                                     problem.start_m);
 		assert_true(fabs(found.objective / known - 1.0) < 1e-11);
 		assert_true(fabs(found.fairness / measures.energy_mvc_per_m2 - 1.0) < 1e-11);
 		free(y);
@@ -85,13 +58,13 @@ static void test_gap(void **state)
 	for (size_t h = 0; h < SMOOTH_COUNT; h++) {
 		search_case c = search_case_open(hulls[h], 0.01, true);
 		const batten_search_problem problem = search_case_problem(&c, 1.0, 1e6);
-		double *y = room_for(&c);
+		double *y = search_case_room(&c);
 		for (int precision = 0; precision < 2; precision++) {
 			batten_search_options options = options_of(400);
 			batten_certificate end;
 			options.precision = precision ? BATTEN_F32 : BATTEN_F64;
-			const batten_search_result result = search(&c, &problem, &options, y);
-			const batten_certificate before = certify(&c, &problem, &options, y);
+			const batten_search_result result = search_case_run(&c, &problem, &options, y);
+			const batten_certificate before = search_case_certify(&c, &problem, &options, y);
 			assert_int_equal(batten_search_polish_batch(c.context, &c.grid, 1, &problem, &options,
 			                                            1e-12, y, &end),
 			                 BATTEN_OK);
@@ -116,15 +89,15 @@ static void test_device(void **state)
 	(void)state;
 	search_case c = search_case_open("npl_parent", 0.01, true);
 	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e5);
-	double *known = room_for(&c);
-	double *found = room_for(&c);
+	double *known = search_case_room(&c);
+	double *found = search_case_room(&c);
 	for (int run = 0; run < 3; run++) {
 		batten_search_options options = options_of(run == 2 ? 3 : 12);
 		options.precision = run == 1 ? BATTEN_F32 : BATTEN_F64;
 		options.algorithm = run == 2 ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_AUTO;
-		const batten_search_result a = search(&c, &problem, &options, known);
+		const batten_search_result a = search_case_run(&c, &problem, &options, known);
 		options.device = 0;
-		const batten_search_result b = search(&c, &problem, &options, found);
+		const batten_search_result b = search_case_run(&c, &problem, &options, found);
 		assert_memory_equal(known, found, c.nodes * sizeof *known);
 		assert_true(a.objective_end == b.objective_end && a.probes == b.probes);
 		assert_int_equal(a.algorithm,
@@ -141,7 +114,7 @@ static void test_refusals(void **state)
 	(void)state;
 	search_case c = search_case_open("wigley", 0.01, false);
 	const batten_search_problem problem = search_case_problem(&c, 1.0, 1e5);
-	double *y = room_for(&c);
+	double *y = search_case_room(&c);
 	batten_search_result result;
 	batten_search_options options = options_of(1);
 	options.longitudinal_weight = 4.0;
