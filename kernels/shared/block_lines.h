@@ -163,8 +163,9 @@ SHARED_FUNCTION node_slopes block_slopes_where(mask has, node_slopes at)
 	return at;
 }
 
-/* Probes a line of nodes. Returns the line's part of the objective at y. */
-SHARED_FUNCTION real block_probe_line(const block_state *s, int line, real far)
+/* Probes a line of nodes; its slopes along the first derivatives count `part`. Returns the line's part of
+ * the objective at y. */
+SHARED_FUNCTION real block_probe_line(const block_state *s, int line, real far, real part)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const STATE real *y = block_array(s, BLOCK_INPUT_START);
@@ -178,8 +179,10 @@ SHARED_FUNCTION real block_probe_line(const block_state *s, int line, real far)
 	for (int k = 1; k + 1 < s->length; k++) {
 		block_walk(s, y, line, k, &window);
 		const node_slopes at = block_slopes_where(bend[k] > zero, block_slopes_at(s, &window, k));
-		const block_probes found = BLOCK_ANALYTIC ? block_derive(at, bend[k])
-		                                          : block_probe(at, far, bend[k]);
+		block_probes found = BLOCK_ANALYTIC ? block_derive(at, bend[k])
+		                                    : block_probe(at, far, bend[k]);
+		found.p *= part;
+		found.q *= part;
 		block_keep(ring + k * BLOCK_PROBE_COUNT, found);
 		sum += bend[k] * found.value;
 	}

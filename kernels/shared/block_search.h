@@ -70,8 +70,10 @@ SHARED_FUNCTION real block_most(const block_state *s, int sum)
 }
 
 /* Probes and tables of all lines, WORK_ITEMS at a time: a line is gathered when those beside it are
- * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. */
-SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, block_stay stay)
+ * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. part:
+ * of the slopes along the first derivatives. */
+SHARED_FUNCTION void block_explore(const block_state *s, real far, real part, int turn,
+                                   block_stay stay)
 {
 	const int at_once = WORK_ITEMS;
 	int gathered = 0, line = 0;
@@ -80,7 +82,7 @@ SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, blo
 		ROLLED
 		for (line = first + WORK_ITEM; line < first + at_once && line < s->lines;
 		     line += WORK_ITEMS)
-			s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line] = block_probe_line(s, line, far);
+			s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line] = block_probe_line(s, line, far, part);
 		WAIT;
 		ROLLED
 		for (line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS) {
@@ -99,13 +101,14 @@ SHARED_FUNCTION void block_explore(const block_state *s, real far, int turn, blo
 		block_explore_hats(s, stay);
 }
 
-/* Which pairs of move and change tell of the curvature here; one made under other bounds does not. */
+/* Which pairs of move and change tell of the curvature here; one made under other bounds does not, nor one
+ * from the slopes of the first iteration. */
 SHARED_FUNCTION void block_remember(const block_state *s, block_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
 	const real newest = block_total(s, BLOCK_MEMORY);
-	const mask same = (block_total(s, 2 * BLOCK_MEMORY) == zero) & (p->fresh == zero);
+	const mask same = (block_total(s, 2 * BLOCK_MEMORY) == zero) & (p->iterations > one);
 	const mask tells = same & (p->fall > zero) & (newest > SPREAD(BLOCK_PAIR_FLOOR) * p->fall);
 	p->inverse[2] = CHOOSE(same, p->inverse[1], zero);
 	p->inverse[1] = CHOOSE(same, p->inverse[0], zero);
@@ -275,7 +278,8 @@ SHARED_FUNCTION void block_judge_gain(real found, mask gain, real longest, block
 	                   (gained * gained <= (p->gained - gained) * (SPREAD(BLOCK_FADED) * small));
 	p->calm = CHOOSE(little, p->calm + one, CHOOSE(gain, zero, p->calm));
 	p->calm = CHOOSE(fades, SPREAD(BLOCK_CALM), p->calm);
-	p->gained = CHOOSE(gain, gained, zero);
+	p->calm = CHOOSE(p->fresh > zero, zero, p->calm);
+	p->gained = CHOOSE(gain & (p->fresh == zero), gained, zero);
 }
 
 /* Goes along the way as far as the objective falls; the parabola through the objective here, its slope
@@ -309,7 +313,7 @@ SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
 		found = CHOOSE(good, trial.objective, found);
 		gain = gain | good;
 		trying = trying & (trial.objective >= p->objective - least_gain) &
-		         (trial.longest > middle * limits.last_step);
+		         (trial.longest > middle * limits.last_step) & (p->fresh == zero);
 		if (!ANY(trying))
 			break;
 		part = CHOOSE(trying, part * shorter, part);
@@ -348,22 +352,26 @@ SHARED_FUNCTION void block_hold(block_progress *p, real longest, block_limits li
 	p->weight = CHOOSE(too_long > zero, weight, CHOOSE(least < faded, least, faded));
 }
 
-/* One iteration of all lanes that have a search. */
+/* One iteration of all lanes that have a search. The first leaves out the slopes along the first derivatives:
+ * where y is rough they say, steeper is better, and lead away from the minimum for many iterations to come,
+ * while the rest is a parabola whose bottom is nearly fair. It has one trial: where y is fair already there is
+ * nothing in it, and it decides nothing. */
 SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits limits,
                                    block_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
 	const block_stay stay = { p->damping, p->weight };
-	block_explore(s, limits.far, turn, stay);
 	const mask fresh = p->fresh > zero;
+	block_explore(s, limits.far, CHOOSE(fresh, zero, one), turn, stay);
 	const real objective = block_total(s, BLOCK_SUM_COUNT - 1);
 	p->start = CHOOSE(fresh, objective, p->start);
 	p->objective = CHOOSE(fresh, objective, p->objective);
 	const real longest = block_choose_way(s, turn, p);
 	const mask gain = block_descend(s, turn, longest, limits, p);
 	const mask bare = (p->inverse[0] == zero) & (p->inverse[1] == zero) & (p->inverse[2] == zero);
-	const mask still = (p->working > zero) & (p->fall == zero);
+	const mask begun = (p->working > zero) & (p->fresh == zero);
+	const mask still = begun & (p->fall == zero);
 	/* Without a gain the memory is at fault, if there is one, then offsets that the box stopped on their
 	 * way while their neighbours went on: steps of damped tables part from them less. What the trial itself
 	 * promises says nothing then: beside offsets a rounding off their bounds it may go uphill. */
@@ -375,7 +383,7 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	block_hold(p, longest, limits);
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		p->inverse[m] = CHOOSE(still, zero, p->inverse[m]);
-	p->converged = CHOOSE(over & (p->working > zero), one, p->converged);
+	p->converged = CHOOSE(over & begun, one, p->converged);
 	p->moves += CHOOSE(gain, one, zero);
 	p->iterations += p->working;
 	p->fresh = zero;
