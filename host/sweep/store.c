@@ -46,6 +46,13 @@ static bool is_shared_between_machines(const char *path)
 	return false;
 }
 
+/* Rows of a design fill a kilobyte and come in order: large pages are fewer calls of the system, fewer pages
+ * to be split. A log of 8 MB between two syncs. */
+static batten_status choose_pages(const sweep_database *database)
+{
+	return database_run(database, "PRAGMA page_size=16384; PRAGMA wal_autocheckpoint=500");
+}
+
 static batten_status choose_journal(const sweep_store *store, batten_sweep_journal journal)
 {
 	const sweep_database *database = &store->database;
@@ -162,6 +169,8 @@ static batten_status open_at(const sweep_plan *plan, const sweep_shard *shard, c
 		status = database_whole(&store.database, "SELECT count(*) FROM sqlite_master", &tables);
 	if (status == BATTEN_OK && tables > 0)
 		status = store_check(&store);
+	if (status == BATTEN_OK)
+		status = choose_pages(&store.database);
 	if (status == BATTEN_OK)
 		status = choose_journal(&store, journal);
 	if (status == BATTEN_OK)
