@@ -51,24 +51,34 @@ RUNS_FUNCTION(find_sides, look_around,
               (const double *list, size_t total, double limit, struct sides *out),
               (list, total, limit, out))
 
-size_t values_below(const double *list, size_t total, double limit)
-{
-	struct sides sides;
-	find_sides(list, total, limit, &sides);
-	return sides.below;
-}
-
 /* A value of the list: fewer than place are below it, as many as count say; or more than place up to it. */
 struct bound {
 	double value;
 	size_t count;
 };
 
-/* Where to look next: where the value sought would be if they lay evenly, now and then half way. */
-static double between(struct bound low, struct bound high, size_t place, unsigned looks)
+/* Where the value sought would be if `count` values lay as magnitudes of a normal variate do near their
+ * median, of which one is known. */
+static double as_normal(struct bound known, size_t place, size_t count)
 {
-	if (low.value == -INFINITY || high.value == INFINITY)
-		return low.value == -INFINITY ? -INFINITY : INFINITY;
+	const double off = (double)place + 0.5 - (double)known.count;
+	const double limit = known.value * (1 + off / (0.43 * (double)count));
+	return isfinite(limit) ? limit : known.value;
+}
+
+/* Where to look next: where the value sought would be if they lay evenly, now and then half way. Beyond the
+ * values while there is no bound on that side, but near the other one first. */
+static double between(struct bound low, struct bound high, size_t place, size_t count,
+                      unsigned looks)
+{
+	if (low.value == -INFINITY) {
+		const double limit = as_normal(high, place, count);
+		return looks < 3 && limit < high.value ? limit : -INFINITY;
+	}
+	if (high.value == INFINITY) {
+		const double limit = as_normal(low, place, count);
+		return looks < 3 && limit > low.value ? limit : INFINITY;
+	}
 	const double part = looks % 4 == 3 ? 0.5
 	                                   : ((double)(place - low.count) + 0.5) /
 	                                         (double)(high.count - low.count);
@@ -78,11 +88,11 @@ static double between(struct bound low, struct bound high, size_t place, unsigne
 
 /* Values are counted, never moved: a look at all of them is a few vectors. Each one brings a bound nearer by
  * a value at least. */
-double median_of_least(const double *list, size_t total, size_t count)
+double median_of_least(const double *list, size_t total, size_t count, double guess)
 {
 	const size_t place = count / 2;
 	struct bound low = { -INFINITY, 0 }, high = { INFINITY, total };
-	double limit = list[total / 2];
+	double limit = guess;
 	for (unsigned looks = 0;; looks++) {
 		struct sides sides;
 		find_sides(list, total, limit, &sides);
@@ -96,6 +106,6 @@ double median_of_least(const double *list, size_t total, size_t count)
 		/* Those in the middle are all alike. */
 		if (low.value == high.value)
 			return low.value;
-		limit = between(low, high, place, looks);
+		limit = between(low, high, place, count, looks);
 	}
 }

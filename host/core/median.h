@@ -4,11 +4,8 @@
 
 #include <stddef.h>
 
-/* How many of total values, none NaN, are below a limit. */
-size_t values_below(const double *list, size_t total, double limit);
-
 /* Median of the count > 0 least of total values, none NaN, those finite: of an even number the mean of both
- * in the middle. */
-double median_of_least(const double *list, size_t total, size_t count);
+ * in the middle. guess: where it may be, any number; the nearer, the sooner it is found. */
+double median_of_least(const double *list, size_t total, size_t count, double guess);
 
 #endif

@@ -12,16 +12,17 @@ struct grid_lines {
 	size_t lane_count, point_count; /* lanes: whole runs; points: of the longest piece */
 	size_t *line, *count; /* [lanes]: the line it is of, its points; 0 beyond the last piece */
 	double *along_most_m; /* [lanes] */
-	size_t *node;         /* [points][lanes], as what follows */
+	size_t *node;         /* [points][lanes], as what follows but for `in_order` */
+	uint8_t *in_order;    /* [points][lanes / RUN_LENGTH]: the nodes of a run stand side by side */
 	/* For the step to the next point, 1 at the last; for interior points the half span of the second
 	 * difference, 1 elsewhere; what makes its rounding, and whether it is one. */
-	double *step_m, *half_span_m, *inverse_per_m, *around_m, *inside;
+	double *step_m, *half_span_m, *rounding_per_m2, *inside;
 	double *value_m, *slope;     /* [points][lanes], of the hull at work */
 	double *fn_per_m2, *changes; /* [lanes] */
 	double *memory;
 };
 
-enum { LANE_ARRAYS = 3, POINT_ARRAYS = 7, NUMBERS_MOST = 1 << 18 };
+enum { LANE_ARRAYS = 3, POINT_ARRAYS = 6, NUMBERS_MOST = 1 << 18 };
 
 /* ---- pieces ---- */
 
@@ -78,7 +79,7 @@ static void lay_lane(grid_lines *t, size_t lane)
 	for (size_t i = 0; i < t->point_count; i++) {
 		const size_t at = i * stride + lane;
 		const double *here = &t->slope[at];
-		t->step_m[at] = t->half_span_m[at] = t->inverse_per_m[at] = t->around_m[at] = 1.0;
+		t->step_m[at] = t->half_span_m[at] = t->rounding_per_m2[at] = 1.0;
 		if (i + 1 < count)
 			t->step_m[at] = here[stride] - here[0];
 		if (i >= count)
@@ -90,9 +91,19 @@ static void lay_lane(grid_lines *t, size_t lane)
 		const double left = t->step_m[at - stride];
 		const double right = t->step_m[at];
 		t->half_span_m[at] = 0.5 * (here[stride] - *(here - stride));
-		t->inverse_per_m[at] = 1 / left + 1 / right;
-		t->around_m[at] = 0.5 * (left + right);
+		t->rounding_per_m2[at] = (1 / left + 1 / right) / (0.5 * (left + right));
 		t->inside[at] = 1.0;
+	}
+}
+
+/* Runs whose nodes stand side by side are read as vectors, others node by node. */
+static void find_order(grid_lines *t)
+{
+	for (size_t run = 0; run < t->point_count * t->lane_count / RUN_LENGTH; run++) {
+		const size_t *node = t->node + run * RUN_LENGTH;
+		t->in_order[run] = 1;
+		for (size_t l = 1; l < RUN_LENGTH; l++)
+			t->in_order[run] &= node[l] == node[0] + l;
 	}
 }
 
@@ -110,6 +121,7 @@ static void lay_pieces(const struct walk *walk, grid_lines *t)
 		}
 	for (lane = 0; lane < t->lane_count; lane++)
 		lay_lane(t, lane);
+	find_order(t);
 }
 
 /* Lanes are as long as the longest piece: of many short pieces and a long one most would stay empty. Tables
@@ -128,12 +140,13 @@ static batten_status take_memory(grid_lines *t)
 	const size_t each = lanes * t->point_count;
 	t->line = batten_allocate(t->context, lanes, 2 * sizeof *t->line);
 	t->node = batten_allocate(t->context, each, sizeof *t->node);
+	t->in_order = batten_allocate(t->context, each / RUN_LENGTH, 1);
 	t->memory = batten_allocate(t->context, LANE_ARRAYS * lanes + POINT_ARRAYS * each,
 	                            sizeof *t->memory);
-	if (!t->line || !t->node || !t->memory)
+	if (!t->line || !t->node || !t->in_order || !t->memory)
 		return BATTEN_MEMORY;
 	t->count = t->line + lanes;
-	double **points[POINT_ARRAYS] = { &t->step_m, &t->half_span_m, &t->inverse_per_m, &t->around_m,
+	double **points[POINT_ARRAYS] = { &t->step_m, &t->half_span_m, &t->rounding_per_m2,
 		                              &t->inside, &t->value_m,     &t->slope };
 	double **by_lane[LANE_ARRAYS] = { &t->along_most_m, &t->fn_per_m2, &t->changes };
 	for (size_t k = 0; k < POINT_ARRAYS; k++)
@@ -172,11 +185,26 @@ void grid_lines_destroy(grid_lines *table)
 		return;
 	batten_release(table->context, table->line);
 	batten_release(table->context, table->node);
+	batten_release(table->context, table->in_order);
 	batten_release(table->context, table->memory);
 	batten_release(table->context, table);
 }
 
 /* ---- a hull ---- */
+
+INLINED void read_run(const double *y_m, const size_t *node, bool in_order, double *value)
+{
+	if (in_order) {
+		const double *first = y_m + node[0];
+		RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++)
+			value[l] = first[l];
+	} else {
+		RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++)
+			value[l] = y_m[node[l]];
+	}
+}
 
 /* Values and slopes of the lanes from lane on, and what a value may be off by through rounding of its
  * coordinates, as in lines_inflections(). */
@@ -187,9 +215,7 @@ INLINED void take_slopes(const grid_lines *t, const double *y_m, size_t lane, do
 	for (size_t i = 0; i < t->point_count; i++) {
 		const size_t *node = t->node + i * stride + lane;
 		double *value = t->value_m + i * stride + lane;
-		RUN_LOOP
-		for (size_t l = 0; l < RUN_LENGTH; l++)
-			value[l] = y_m[node[l]];
+		read_run(y_m, node, t->in_order[(i * stride + lane) / RUN_LENGTH], value);
 		RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++)
 			value_most[l] = fabs(value[l]) > value_most[l] ? fabs(value[l]) : value_most[l];
@@ -222,12 +248,11 @@ INLINED void take_lanes(const grid_lines *t, const double *y_m, size_t lane)
 	for (size_t i = 1; i + 1 < t->point_count; i++) {
 		const size_t at = i * stride + lane;
 		const double *right = t->slope + at, *left = right - stride, *inside = t->inside + at;
-		const double *half = t->half_span_m + at, *inverse = t->inverse_per_m + at;
-		const double *around = t->around_m + at;
+		const double *half = t->half_span_m + at, *per_m2 = t->rounding_per_m2 + at;
 		RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++) {
 			const double d2 = (right[l] - left[l]) / half[l];
-			const double least = rounding[l] * inverse[l] / around[l];
+			const double least = rounding[l] * per_m2[l];
 			const double here = inside[l] > 0 ? d2 : 0.0;
 			const double turned = here * last[l] < 0 ? 1.0 : 0.0;
 			const double told = fabs(here) > least ? 1.0 : 0.0;

@@ -33,6 +33,8 @@ struct direction {
 	double *weights; /* of each order and each place its first point may have */
 	double *value_m; /* [count][stride] */
 	double *run;     /* as value_m: how many positive half-breadths in a row end here */
+	/* The medians found last, of order after order: those of the next hull are often near them. */
+	double median[NOISE_MOST_ORDER - NOISE_LEAST_ORDER + 1];
 };
 
 struct grid_noise {
@@ -79,22 +81,23 @@ static batten_status take_memory(grid_noise *noise)
 		noise->most = nodes > noise->most ? nodes : noise->most;
 		numbers += NUMBERS_A_POINT * d->count;
 	}
-	/* One direction after the other works in the same rooms. */
-	noise->memory = batten_allocate(noise->context, numbers + 3 * noise->most,
+	/* One direction after the other works in the same rooms, whose runs begin at lines of the cache. */
+	noise->memory = batten_allocate(noise->context, numbers + 3 * noise->most + RUN_LENGTH,
 	                                sizeof *noise->memory);
 	if (!noise->memory)
 		return BATTEN_MEMORY;
-	double *at = noise->memory;
-	for (size_t k = 0; k < 2; k++) {
-		struct direction *d = &noise->along[k];
-		d->weights = at;
-		at += NUMBERS_A_POINT * d->count;
-	}
+	double *at = noise->memory + (-(uintptr_t)noise->memory / sizeof *at) % RUN_LENGTH;
 	for (size_t k = 0; k < 2; k++) {
 		noise->along[k].value_m = at;
 		noise->along[k].run = at + noise->most;
 	}
 	noise->magnitude = at + 2 * noise->most;
+	at += 3 * noise->most;
+	for (size_t k = 0; k < 2; k++) {
+		struct direction *d = &noise->along[k];
+		d->weights = at;
+		at += NUMBERS_A_POINT * d->count;
+	}
 	return BATTEN_OK;
 }
 
@@ -135,12 +138,15 @@ void grid_noise_destroy(grid_noise *noise)
 /* ---- differences ---- */
 
 /* Points of the lines, step apart in y_m, lines line_step apart. */
-static void take_values(const struct direction *d, const double *y_m, size_t step, size_t line_step)
+static void take_values(const struct direction *d, const double *restrict y_m, size_t step,
+                        size_t line_step)
 {
 	for (size_t i = 0; i < d->count; i++) {
-		double *value = d->value_m + i * d->stride;
-		for (size_t line = 0; line < d->stride; line++)
-			value[line] = line < d->lines ? y_m[i * step + line * line_step] : 0.0;
+		double *restrict value = d->value_m + i * d->stride;
+		for (size_t line = 0; line < d->lines; line++)
+			value[line] = y_m[i * step + line * line_step];
+		for (size_t line = d->lines; line < d->stride; line++)
+			value[line] = 0.0;
 	}
 }
 
@@ -156,18 +162,28 @@ INLINED void count_runs(const struct direction *d)
 
 RUNS_FUNCTION(take_runs, count_runs, (const struct direction *d), (d))
 
-/* The magnitudes of all differences of an order that begin at a place, infinite where there is none. */
-INLINED void take_place(const struct direction *d, const double *weights, size_t order,
-                        size_t first, double *magnitude)
+/* How many differences of an order there are in each lane, and how many of them below a limit. */
+struct counted {
+	double limit;
+	double there[RUN_LENGTH], below[RUN_LENGTH];
+};
+
+/* The magnitudes of all differences of an order, where they begin, infinite where there is none. One loop, in
+ * which what is counted stays in registers. */
+INLINED void take_places(const struct direction *d, size_t order, double *magnitude,
+                         struct counted *out)
 {
-	for (size_t line = 0; line < d->stride; line += RUN_LENGTH) {
-		const double *value = d->value_m + first * d->stride + line;
-		const double *run = d->run + (first + order) * d->stride + line;
+	const size_t stride = d->stride, end = (d->count - order) * stride;
+	const double limit = out->limit;
+	const double *weights = weights_of(d, order);
+	double there_are[RUN_LENGTH] = { 0 }, below[RUN_LENGTH] = { 0 };
+	for (size_t n = 0, line = 0; n < end; n += RUN_LENGTH) {
+		const double *value = d->value_m + n, *run = d->run + n + order * stride;
 		double sum[RUN_LENGTH] = { 0 }, size[RUN_LENGTH];
 		for (size_t i = 0; i <= order; i++)
 			RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++)
-			sum[l] += weights[i] * value[i * d->stride + l];
+			sum[l] += weights[i] * value[i * stride + l];
 		/* Only points closer than their own rounding give what is not finite. */
 		RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++) {
@@ -175,46 +191,62 @@ INLINED void take_place(const struct direction *d, const double *weights, size_t
 			size[l] = there < INFINITY ? there : INFINITY;
 		}
 		RUN_LOOP
+		for (size_t l = 0; l < RUN_LENGTH; l++) {
+			there_are[l] += size[l] < INFINITY ? 1.0 : 0.0;
+			below[l] += size[l] < limit ? 1.0 : 0.0;
+		}
+		RUN_LOOP
 		for (size_t l = 0; l < RUN_LENGTH; l++)
-			magnitude[line + l] = size[l];
+			magnitude[n + l] = size[l];
+		line += RUN_LENGTH;
+		weights += line == stride ? order + 1 : 0;
+		line = line == stride ? 0 : line;
+	}
+	RUN_LOOP
+	for (size_t l = 0; l < RUN_LENGTH; l++) {
+		out->there[l] = there_are[l];
+		out->below[l] = below[l];
 	}
 }
 
-INLINED void take_places(const struct direction *d, size_t order, double *magnitude)
-{
-	const double *weights = weights_of(d, order);
-	for (size_t first = 0; first + order < d->count; first++)
-		take_place(d, weights + first * (order + 1), order, first, magnitude + first * d->stride);
-}
-
 /* An order the compiler knows is a sum without a loop. */
-INLINED void take_order(const struct direction *d, size_t order, double *magnitude)
+INLINED void take_order(const struct direction *d, size_t order, double *magnitude,
+                        struct counted *counted)
 {
 	_Static_assert(NOISE_LEAST_ORDER == 4 && NOISE_MOST_ORDER == 8, "the orders below");
 	switch (order) {
 	case 4:
-		take_places(d, 4, magnitude);
+		take_places(d, 4, magnitude, counted);
 		break;
 	case 5:
-		take_places(d, 5, magnitude);
+		take_places(d, 5, magnitude, counted);
 		break;
 	case 6:
-		take_places(d, 6, magnitude);
+		take_places(d, 6, magnitude, counted);
 		break;
 	case 7:
-		take_places(d, 7, magnitude);
+		take_places(d, 7, magnitude, counted);
 		break;
 	default:
-		take_places(d, 8, magnitude);
+		take_places(d, 8, magnitude, counted);
 	}
 }
 
 RUNS_FUNCTION(take_differences, take_order,
-              (const struct direction *d, size_t order, double *magnitude), (d, order, magnitude))
+              (const struct direction *d, size_t order, double *magnitude, struct counted *counted),
+              (d, order, magnitude, counted))
+
+static size_t total(const double *lanes)
+{
+	double sum = 0;
+	for (size_t l = 0; l < RUN_LENGTH; l++)
+		sum += lanes[l];
+	return (size_t)sum;
+}
 
 /* The least scale over the orders. On faired hulls it is most often that of order 5, then 4; of the others a
  * count then tells that their median is not less. */
-static double least_scale(const grid_noise *noise, const struct direction *d)
+static double least_scale(const grid_noise *noise, struct direction *d)
 {
 	static const size_t orders[] = { 5, 4, 6, 7, 8 };
 	_Static_assert(sizeof orders / sizeof orders[0] == NOISE_MOST_ORDER - NOISE_LEAST_ORDER + 1,
@@ -223,15 +255,16 @@ static double least_scale(const grid_noise *noise, const struct direction *d)
 	take_runs(d);
 	for (size_t o = 0; o < sizeof orders / sizeof orders[0]; o++) {
 		const size_t order = orders[o];
+		double *median = &d->median[order - NOISE_LEAST_ORDER];
 		if (d->count <= order)
 			continue;
-		const size_t room = (d->count - order) * d->stride;
-		take_differences(d, order, noise->magnitude);
-		const size_t count = values_below(noise->magnitude, room, INFINITY);
-		if (count < NOISE_LEAST_SAMPLES ||
-		    values_below(noise->magnitude, room, least) < (count + 1) / 2)
+		struct counted counted = { .limit = least };
+		take_differences(d, order, noise->magnitude, &counted);
+		const size_t count = total(counted.there);
+		if (count < NOISE_LEAST_SAMPLES || total(counted.below) < (count + 1) / 2)
 			continue;
-		least = fmin(least, median_of_least(noise->magnitude, room, count));
+		*median = median_of_least(noise->magnitude, (d->count - order) * d->stride, count, *median);
+		least = fmin(least, *median);
 	}
 	return least / NOISE_NORMAL_MEDIAN;
 }

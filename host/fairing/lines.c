@@ -59,7 +59,7 @@ size_t lines_inflections(size_t count, const double *along_m, const double *valu
 	double last = 0;
 	for (size_t i = 1; i + 1 < count; i++) {
 		double left = along_m[i] - along_m[i - 1], right = along_m[i + 1] - along_m[i];
-		double floor_per_m = rounding * (1 / left + 1 / right) / (0.5 * (left + right));
+		double floor_per_m = rounding * ((1 / left + 1 / right) / (0.5 * (left + right)));
 		double d2 = second_difference(along_m, value_m, i);
 		if (fabs(d2) <= floor_per_m)
 			continue;

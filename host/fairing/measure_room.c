@@ -3,8 +3,7 @@
 #include "fairing/grid_lines.h"
 #include "fairing/grid_noise.h"
 #include "fairing/noise.h"
-#include "geometry/grid_curvature.h"
-#include "geometry/grid_variation.h"
+#include "geometry/grid_energies.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,9 +12,9 @@ struct measure_room {
 	batten_context *context;
 	batten_hull
 		*table; /* coordinates and nodes that the rest is made for; NULL before the first hull */
-	bool knows_nodes; /* lines and noise are those of the table's nodes */
+	bool knows_nodes; /* what follows the stencils is that of the table's nodes */
 	grid_stencils stencils;
-	grid_curvature *grid;
+	grid_counted counted;
 	grid_lines
 		*lines[2];     /* waterlines, sections; NULL where a hull's are to be worked one by one */
 	grid_noise *noise; /* NULL likewise */
@@ -33,7 +32,7 @@ batten_status measure_room_create(batten_context *context, measure_room **out)
 	return BATTEN_OK;
 }
 
-static void forget_lines(measure_room *room)
+static void forget_nodes(measure_room *room)
 {
 	for (size_t k = 0; k < 2; k++) {
 		grid_lines_destroy(room->lines[k]);
@@ -41,14 +40,13 @@ static void forget_lines(measure_room *room)
 	}
 	grid_noise_destroy(room->noise);
 	room->noise = NULL;
+	grid_counted_destroy(room->context, &room->counted);
 	room->knows_nodes = false;
 }
 
 static void forget_table(measure_room *room)
 {
-	forget_lines(room);
-	grid_curvature_destroy(room->context, room->grid);
-	room->grid = NULL;
+	forget_nodes(room);
 	grid_stencils_destroy(room->context, &room->stencils);
 	batten_hull_destroy(room->table);
 	room->table = NULL;
@@ -75,8 +73,6 @@ static batten_status take_table(measure_room *room, const batten_hull *hull)
 	room->table = table;
 	batten_status status = grid_stencils_create(room->context, nx, table->x_m, nz, table->z_m,
 	                                            &room->stencils);
-	if (status == BATTEN_OK)
-		status = grid_curvature_allocate(room->context, nx, nz, &room->grid);
 	if (status != BATTEN_OK)
 		forget_table(room);
 	return status;
@@ -94,12 +90,14 @@ static batten_status know_nodes(measure_room *room, const batten_hull *hull)
 	if (status != BATTEN_OK ||
 	    (room->knows_nodes && memcmp(room->table->nodes, hull->nodes, size) == 0))
 		return status;
-	forget_lines(room);
+	forget_nodes(room);
 	memcpy(room->table->nodes, hull->nodes, size);
 	for (size_t k = 0; k < 2 && lines_are_of_grid(hull) && status == BATTEN_OK; k++)
 		status = grid_lines_create(room->context, hull, k == 0, &room->lines[k]);
 	if (status == BATTEN_OK && grid_noise_fits(hull))
 		status = grid_noise_create(room->context, hull, &room->noise);
+	if (status == BATTEN_OK)
+		status = grid_counted_create(room->context, hull, &room->counted);
 	room->knows_nodes = status == BATTEN_OK;
 	return status;
 }
@@ -126,23 +124,13 @@ static batten_status take_noise(const measure_room *room, const batten_hull *hul
 	return BATTEN_OK;
 }
 
-/* Where a node has no curvature of its own, its area is 0. */
 static void take_energies(const measure_room *room, const batten_hull *hull, batten_measures *out)
 {
-	grid_curvature *grid = room->grid;
-	grid_curvature_fill(hull, &room->stencils, grid);
-	double bending = 0, mean = 0, gauss = 0;
-	for (size_t i = 0; i < hull_node_count(hull); i++) {
-		const double area = grid->area_m2[i];
-		bending += grid->bending_per_m2[i] * area;
-		mean += grid->mean_per_m[i] * grid->mean_per_m[i] * area;
-		gauss += fabs(grid->gauss_per_m2[i]) * area;
-	}
-	const bool any = grid->own_count > 0;
-	out->energy_bending = any ? bending : NAN;
-	out->energy_mean = any ? mean : NAN;
-	out->energy_gauss = any ? gauss : NAN;
-	out->energy_mvc_per_m2 = grid_variation_sum(hull, &room->stencils, grid);
+	const grid_energies energies = grid_energies_of(hull, &room->stencils, &room->counted);
+	out->energy_bending = energies.bending;
+	out->energy_mean = energies.mean;
+	out->energy_gauss = energies.gauss;
+	out->energy_mvc_per_m2 = energies.variation_per_m2;
 }
 
 batten_status measure_room_fairness(measure_room *room, const batten_hull *hull,

@@ -78,7 +78,8 @@ static batten_status measure_direction(const batten_hull *hull, bool waterlines,
 		struct samples samples = { .magnitude = memory };
 		status = take_lines(hull, waterlines, order, &samples);
 		if (status == BATTEN_OK && samples.count >= NOISE_LEAST_SAMPLES)
-			least = fmin(least, median_of_least(memory, samples.count, samples.count));
+			least = fmin(least, median_of_least(memory, samples.count, samples.count,
+			                                    memory[samples.count / 2]));
 	}
 	*out = least / NOISE_NORMAL_MEDIAN;
 	return status;

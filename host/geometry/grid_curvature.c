@@ -145,8 +145,8 @@ RUNS_FUNCTION(take_rows, work_rows,
               (const batten_hull *hull, const grid_stencils *stencils, grid_curvature *grid),
               (hull, stencils, grid))
 
-void grid_curvature_fill(const batten_hull *hull, const grid_stencils *stencils,
-                         grid_curvature *grid)
+/* OWN nodes of a hull, and nothing borrowed. */
+static void fill(const batten_hull *hull, const grid_stencils *stencils, grid_curvature *grid)
 {
 	if (hull->station_count < 3 || hull->waterline_count < 3)
 		return;
@@ -220,8 +220,9 @@ static batten_status borrow_at_edges(batten_context *context, const batten_hull 
 	return BATTEN_OK;
 }
 
-batten_status grid_curvature_allocate(batten_context *context, size_t station_count,
-                                      size_t waterline_count, grid_curvature **out)
+/* With all nodes NONE. */
+static batten_status allocate(batten_context *context, size_t station_count, size_t waterline_count,
+                              grid_curvature **out)
 {
 	const size_t count = station_count * waterline_count;
 	grid_curvature *grid = batten_allocate(context, 1, sizeof *grid);
@@ -256,9 +257,9 @@ batten_status grid_curvature_create(batten_context *context, const batten_hull *
 	                                            hull->waterline_count, hull->z_m, &stencils);
 	if (status != BATTEN_OK)
 		return status;
-	status = grid_curvature_allocate(context, hull->station_count, hull->waterline_count, &grid);
+	status = allocate(context, hull->station_count, hull->waterline_count, &grid);
 	if (status == BATTEN_OK) {
-		grid_curvature_fill(hull, &stencils, grid);
+		fill(hull, &stencils, grid);
 		status = borrow_at_edges(context, hull, grid);
 	}
 	if (status == BATTEN_OK) {

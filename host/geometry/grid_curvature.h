@@ -1,5 +1,5 @@
 /* Derivatives and curvatures of a hull's graph y(x, z) at the nodes of its offset table, by
- * differences over 3 x 3 nodes. The measures sum them, the pictures colour them.
+ * differences over 3 x 3 nodes, for pictures. What is summed of them: grid_energies.h.
  *
  * A derivative along one direction is that of the parabola through three neighbours, any spacing; the
  * mixed one applies both in turn. It is taken only where all nine nodes are on the hull, given or
@@ -28,15 +28,6 @@ typedef struct grid_curvature {
 	double *area_m2;        /* dS = sqrt(1 + y_x^2 + y_z^2) dx dz, half-sum spacings; one side */
 	size_t own_count;       /* nodes with a curvature of their own */
 } grid_curvature;
-
-/* With all nodes NONE. Errors: MEMORY. */
-batten_status grid_curvature_allocate(batten_context *context, size_t station_count,
-                                      size_t waterline_count, grid_curvature **out);
-
-/* OWN nodes of a hull, and nothing borrowed; stencils and grid: of its table. grid was allocated, or filled
- * for another hull. */
-void grid_curvature_fill(const batten_hull *hull, const grid_stencils *stencils,
-                         grid_curvature *grid);
 
 /* A table of fewer than three stations or waterlines has no OWN node. Errors: MEMORY. */
 batten_status grid_curvature_create(batten_context *context, const batten_hull *hull,

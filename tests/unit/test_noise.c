@@ -315,7 +315,11 @@ static void medians(void **state)
 			memcpy(sorted, list, total * sizeof *list);
 			qsort(sorted, total, sizeof *sorted, ascending);
 			const double expected = 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
-			assert_true(median_of_least(list, total, count) == expected);
+			const double guesses[] = { list[total / 2], expected, 0.9 * expected,
+				                       1.1 * expected,  -1,       0,
+				                       INFINITY,        NAN };
+			for (size_t g = 0; g < sizeof guesses / sizeof guesses[0]; g++)
+				assert_true(median_of_least(list, total, count, guesses[g]) == expected);
 		}
 }
 
