@@ -18,6 +18,7 @@
 #include "shared/dialect.h"
 #include "shared/net_energy.h"
 /* The objective first: moves call it. */
+#define SEARCH_WAYS NET_WAYS
 #include "shared/search_ways.h"
 /* The course last: it calls the pattern move. */
 #include "shared/search_driver.h"

@@ -16,17 +16,13 @@ enum { ALGORITHM_COUNT = sizeof algorithms / sizeof algorithms[0] };
 static batten_status choose(batten_context *context, batten_search_options *options,
                             search_algorithm_run **run)
 {
-	const bool plain = options->fairness == BATTEN_FAIRNESS_BENDING &&
-	                   options->longitudinal_weight == 1.0 && options->transverse_weight == 1.0;
-	if (options->algorithm == BATTEN_ALGORITHM_AUTO)
-		options->algorithm = plain && !options->interior_penalty ? BATTEN_ALGORITHM_BLOCK
-		                                                         : BATTEN_ALGORITHM_MULTILEVEL;
+	options->algorithm = search_options_algorithm(options);
 	*run = (size_t)options->algorithm < ALGORITHM_COUNT ? algorithms[options->algorithm] : NULL;
 	if (!*run)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "search algorithm %s: auto, textbook, multilevel or block is expected",
 		                   batten_search_algorithm_text(options->algorithm));
-	if (options->algorithm == BATTEN_ALGORITHM_BLOCK && !plain)
+	if (options->algorithm == BATTEN_ALGORITHM_BLOCK && !search_options_plain(options))
 		return batten_fail(context, BATTEN_USAGE,
 		                   "the block search knows bending with weights 1 and 1 only: multilevel "
 		                   "or auto is expected");

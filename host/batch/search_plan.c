@@ -196,6 +196,30 @@ static bool is_lane_count(unsigned lanes)
 	return lanes <= 16 && (lanes & (lanes - 1)) == 0;
 }
 
+bool search_options_plain(const batten_search_options *options)
+{
+	return options->fairness == BATTEN_FAIRNESS_BENDING && options->longitudinal_weight == 1.0 &&
+	       options->transverse_weight == 1.0;
+}
+
+batten_search_algorithm search_options_algorithm(const batten_search_options *options)
+{
+	if (options->algorithm != BATTEN_ALGORITHM_AUTO)
+		return options->algorithm;
+	return search_options_plain(options) && !options->interior_penalty
+	           ? BATTEN_ALGORITHM_BLOCK
+	           : BATTEN_ALGORITHM_MULTILEVEL;
+}
+
+/* Hats leave the gap that is promised at steps ten times as long as others need; not so where the problem is
+ * of the sixth order, or a round of an interior penalty has to leave less. */
+static double default_last_step(const batten_search_options *options)
+{
+	const bool hats = search_options_algorithm(options) == BATTEN_ALGORITHM_MULTILEVEL &&
+	                  options->fairness != BATTEN_FAIRNESS_VARIATION && !options->interior_penalty;
+	return (options->precision == BATTEN_F64 ? 2e-7 : 2e-6) * (hats ? 10.0 : 1.0);
+}
+
 batten_status search_options_check(batten_context *context, const batten_search_options *given,
                                    batten_search_options *chosen)
 {
@@ -205,7 +229,7 @@ batten_status search_options_check(batten_context *context, const batten_search_
 	if (chosen->struct_size != sizeof *chosen)
 		return batten_fail(context, BATTEN_USAGE, "search options of another version of batten");
 	if (chosen->last_step == 0.0)
-		chosen->last_step = chosen->precision == BATTEN_F64 ? 2e-7 : 2e-6;
+		chosen->last_step = default_last_step(chosen);
 	const bool shrinks = chosen->precision == BATTEN_F64
 	                         ? chosen->last_step < chosen->first_step
 	                         : (float)chosen->last_step < (float)chosen->first_step;

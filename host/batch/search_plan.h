@@ -55,6 +55,12 @@ size_t search_centre_count(size_t count, int width);
 /* Counts and coordinates as batten_grid wants them. Errors: USAGE. */
 batten_status search_grid_check(batten_context *context, const batten_grid *grid);
 
+/* Whether it is bending, both directions alike, that is to be low. */
+bool search_options_plain(const batten_search_options *options);
+
+/* The algorithm of a search over an offset grid: what AUTO takes. */
+batten_search_algorithm search_options_algorithm(const batten_search_options *options);
+
 /* Takes the defaults where given is NULL, checks them and replaces every 0 that stands for "choose".
  * Lanes and work-group are chosen per device later. Errors: USAGE. */
 batten_status search_options_check(batten_context *context, const batten_search_options *given,

@@ -85,6 +85,18 @@ SHARED_FUNCTION real parabola_step(real h, real plus, real minus)
 	return CHOOSE(bend > zero, cut, zero);
 }
 
+/* The step after an iteration whose longest was so long: the same where it was as long as that, else half of
+ * it, or a quarter or an eighth where those were long enough. */
+SHARED_FUNCTION real step_after(real step, real longest)
+{
+	const real part = SPREAD(LITERAL(0.5));
+	const real halved = part * step;
+	const real quarter = part * halved;
+	const real eighth = part * quarter;
+	const real least = CHOOSE(longest < eighth, eighth, CHOOSE(longest < quarter, quarter, halved));
+	return CHOOSE(longest < step, least, step);
+}
+
 /* What the probes of one direction have come to. */
 typedef struct search_trial {
 	real before, plus, change, step;

@@ -224,6 +224,13 @@ SHARED_FUNCTION void move_begin(const search_state *s, int colour, int direction
 		s->trial[s->members[m]] = s->y[s->members[m]];
 }
 
+/* Where a step leads from y in a box. */
+SHARED_FUNCTION real step_from(const search_state *s, real y, real step, real lower, real upper)
+{
+	(void)s;
+	return move_clamped(y, step, lower, upper);
+}
+
 SHARED_FUNCTION void move_end(const search_state *s, const search_move *move)
 {
 	ROLLED

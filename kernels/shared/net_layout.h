@@ -33,7 +33,7 @@ enum {
 };
 
 /* Nets of working state: y, base, trial and the remembered ways. */
-#define NET_STATE_COUNT (3 + SEARCH_WAYS - 1)
+#define NET_STATE_COUNT (3 + NET_WAYS - 1)
 
 /* One value a search each, beyond SEARCH_SETTING_COUNT. */
 enum {

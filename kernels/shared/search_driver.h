@@ -1,5 +1,5 @@
 /* The course of a multilevel pattern search (Hooke and Jeeves; thesis 7.2): exploratory moves along
- * every direction, a pattern move, steps that halve.
+ * every direction, a pattern move, steps that become shorter.
  *
  * Defined before this is included, beside what search_sweep.h asks for:
  *   void search_prepare(const search_state *)
@@ -71,7 +71,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 		return;
 	const mask pays = before - p->wide > SPREAD(WIDE_SHARE) * (p->wide - p->objective);
 	p->wide_pays = CHOOSE(pays, one, zero);
-	p->step = CHOOSE(active & (longest < p->step), p->step * SPREAD(LITERAL(0.5)), p->step);
+	p->step = CHOOSE(active, step_after(p->step, longest), p->step);
 	p->iterations += CHOOSE(active, one, zero);
 }
 

@@ -1,6 +1,11 @@
 /* The pattern move with a memory: a parabola is probed over this iteration's way and the ways of the
- * iterations before, and the search goes on from its bottom. What search_driver.h asks for; beyond that of
- * search_sweep.h, search_state has ways: STATE real *, SEARCH_WAYS - 1 arrays of nodes. */
+ * iterations before, and the search goes on from its bottom. What search_driver.h asks for.
+ *
+ * Defined before this is included, beside what search_sweep.h asks for:
+ *   SEARCH_WAYS        ways, this iteration's among them
+ *   search_state       ways: STATE real *, SEARCH_WAYS - 1 arrays of nodes
+ *   real step_from(const search_state *, real y, real step, real lower, real upper)
+ *                      where a step leads from y in a box */
 #ifndef BATTEN_SHARED_SEARCH_WAYS_H
 #define BATTEN_SHARED_SEARCH_WAYS_H
 
@@ -29,7 +34,7 @@ SHARED_FUNCTION void search_extrapolate(const search_state *s, const real *facto
 		ROLLED
 		for (int w = 1; w < SEARCH_WAYS; w++)
 			step += factors[w] * s->ways[(w - 1) * s->nodes + n];
-		s->trial[n] = move_clamped(s->y[n], step, s->lower[n], s->upper[n]);
+		s->trial[n] = step_from(s, s->y[n], step, s->lower[n], s->upper[n]);
 	}
 	WAIT;
 }

@@ -189,6 +189,7 @@ static void test_restart_stays(void **state)
 		for (size_t w = 0; w < sizeof weights / sizeof weights[0]; w++) {
 			batten_search_options options = reference_options();
 			options.algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+			options.last_step = 2e-7;
 			batten_search_problem problem = search_case_problem(&c, 1.0, weights[w]);
 			const batten_search_result result = run(&c, &problem, &options, first);
 			assert_true(result.objective_end <= result.objective_start);

@@ -60,7 +60,8 @@ typedef struct batten_search_options {
 	batten_precision precision;
 	batten_search_algorithm algorithm; /* BATTEN_ALGORITHM_AUTO */
 	double first_step;                 /* of h: 0.02 */
-	double last_step;                  /* of h: 2e-7 in f64, 2e-6 in f32; 0 takes these */
+	double last_step;                  /* of h; 0 takes 2e-7 in f64, 2e-6 in f32, ten times that for
+	                                      MULTILEVEL without variation of curvature and interior penalty */
 	unsigned iteration_limit;          /* 400 */
 	unsigned lanes;      /* searches a work-item runs side by side: 1, 2, 4, 8, 16; 0 chooses */
 	unsigned work_group; /* work-items a search is shared by; 0 chooses */
