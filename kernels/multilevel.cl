@@ -34,6 +34,7 @@ kernel void multilevel(int stations, int waterlines, int level_count, int iterat
 	settings += group * SEARCH_SETTING_COUNT;
 	search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
 	search_levels(&s, level_count, levels, centres);
+	search_slopes_clear(&s);
 	search_run(&s, iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes,
 	           outcome + group * SEARCH_OUTCOME_COUNT, gathered);
 }

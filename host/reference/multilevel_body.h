@@ -22,6 +22,7 @@ INLINED void work_search(const reference_multilevel *plan, const scalar *stencil
 	s.fairness = plan->fairness;
 	s.penalised = plan->penalised;
 	search_levels(&s, plan->level_count, plan->levels, plan->centres);
+	search_slopes_clear(&s);
 	search_run(&s, plan->iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes, outcome,
 	           gathered);
 }

@@ -6,6 +6,17 @@
 #include "dialect.h"
 #include "search_layout.h"
 
+/* A product and a sum: rounded once where the includer has defined GRID_FUSED as 1, so that its C path is to
+ * be compiled for processors with a multiply-add too. */
+#if !defined(GRID_FUSED)
+#define GRID_FUSED 0
+#endif
+#if GRID_FUSED
+#define PRODUCT_AND(a, b, c) FUSED(a, b, c)
+#else
+#define PRODUCT_AND(a, b, c) ((a) * (b) + (c))
+#endif
+
 /* Weights of one direction's three-point differences at a node, exact for parabolas at any spacing:
  * with d = here - below and e = above - here, the first derivative is w[0] d + w[1] e, the second
  * w[3] e - w[2] d. Differences first: they are exact where neighbours are close, which f32 needs. */
@@ -26,12 +37,12 @@ typedef struct node_slopes {
 
 SHARED_FUNCTION real stencil_first(scalar w0, scalar w1, real below, real here, real above)
 {
-	return w0 * (here - below) + w1 * (above - here);
+	return PRODUCT_AND(SPREAD(w0), here - below, w1 * (above - here));
 }
 
 SHARED_FUNCTION real stencil_second(scalar w2, scalar w3, real below, real here, real above)
 {
-	return w3 * (above - here) - w2 * (here - below);
+	return PRODUCT_AND(SPREAD(w3), above - here, -(w2 * (here - below)));
 }
 
 /* The stencils of a node's station and waterline. */
@@ -67,7 +78,7 @@ SHARED_FUNCTION node_tangent tangent_of(int kind, real y_x, real y_z)
 	const real one = SPREAD(LITERAL(1.0));
 	const real q2 = y_z * y_z;
 	node_tangent t;
-	t.along = one + y_x * y_x;
+	t.along = PRODUCT_AND(y_x, y_x, one);
 	t.across = one + q2;
 	t.square = t.along + q2;
 	t.inverse = one / t.square;
@@ -87,9 +98,10 @@ SHARED_FUNCTION node_tangent tangent_of(int kind, real y_x, real y_z)
 SHARED_FUNCTION real bending_of(node_tangent t, real y_xx, real y_xz, real y_zz)
 {
 	const real two = SPREAD(LITERAL(2.0));
-	const real mean = (t.across * y_xx - t.twice_product * y_xz) + t.along * y_zz;
-	const real gauss = y_xx * y_zz - y_xz * y_xz;
-	const real sum = (mean * mean) * t.inverse - two * gauss;
+	const real across = PRODUCT_AND(-t.twice_product, y_xz, t.across * y_xx);
+	const real mean = PRODUCT_AND(t.along, y_zz, across);
+	const real gauss = PRODUCT_AND(y_xx, y_zz, -(y_xz * y_xz));
+	const real sum = PRODUCT_AND(mean * mean, t.inverse, -(two * gauss));
 	return (sum * t.inverse) * t.root;
 }
 

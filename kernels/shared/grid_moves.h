@@ -1,9 +1,11 @@
 /* Moves of a pattern search over an offset grid along hats, and the terms of the objective that they can
- * change.
+ * change: the fairness of nodes (`terms`), and what each node has of its own, closeness and penalty.
  *
- * A single offset changes the derivatives of its 3 x 3 nodes by so much a step, at the corners y_xz alone:
- * they are made once for all its probes. A wider hat is moved in place, from where its nodes were, which is
- * kept in trial: no other direction of its colour reads them. The terms at y are kept, so that nothing need be
+ * The derivatives at y are kept for every node. A single offset changes those of its 3 x 3 nodes by so much a
+ * step, at the corners y_xz alone. A thin hat, one of offsets of one station, changes y_x, y_xx and y_xz alone
+ * beside it. Both probe without moving y. A wider hat is moved in place, from where its nodes were, which is
+ * kept in trial: no other direction of its colour reads them; its derivatives are taken anew. The variation of
+ * curvature keeps none, and all its hats are of that kind. The terms at y are kept, so that nothing need be
  * worked where the step is 0; single offsets come last in an iteration and leave them behind. */
 #ifndef BATTEN_SHARED_GRID_MOVES_H
 #define BATTEN_SHARED_GRID_MOVES_H
@@ -58,6 +60,15 @@ SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move, i
 	}
 }
 
+/* What a node has of its own, at y. */
+SHARED_FUNCTION real node_own(const search_state *s, int node, real y)
+{
+	real own = node_closeness(s->close[node], y, s->target[node]);
+	if (GRID_PENALTY)
+		own += node_penalty(s->penalty, y, s->lower[node], s->upper[node]);
+	return own;
+}
+
 /* Differences of three neighbours along x. */
 typedef struct row_slopes {
 	real here, first, second;
@@ -65,148 +76,137 @@ typedef struct row_slopes {
 
 SHARED_FUNCTION row_slopes row_of(const search_state *s, const scalar *x, int node)
 {
+	const real aft = s->y[node - 1];
 	const real here = s->y[node];
-	const real below = here - s->y[node - 1];
-	const real above = s->y[node + 1] - here;
-	const row_slopes row = { here, x[0] * below + x[1] * above, x[3] * above - x[2] * below };
+	const real fore = s->y[node + 1];
+	const row_slopes row = { here, stencil_first(x[0], x[1], aft, here, fore),
+		                     stencil_second(x[2], x[3], aft, here, fore) };
 	return row;
 }
 
-/* Those of the variation of curvature: see column_objective(). */
+/* The objective over a station's nodes first_k .. last_k. Where it `keeps`, terms and derivatives of the lanes
+ * that `moved` are. */
 SHARED_FUNCTION real column_third_objective(const search_state *s, int station, int first_k,
-                                            int last_k, STATE real *terms)
+                                            int last_k, int keeps, mask moved)
 {
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int k = first_k; k <= last_k; k++) {
 		const int node = node_of(s, station, k);
-		real term = third_objective(s, s->y, station, k);
-		if (GRID_PENALTY)
-			term += node_penalty(s->penalty, s->y[node], s->lower[node], s->upper[node]);
-		terms[node] = term;
-		sum += term;
+		const real term = node_energy(s->bend[node], third_fairness(s, s->y, station, k));
+		if (keeps)
+			s->terms[node] = CHOOSE(moved, term, s->terms[node]);
+		sum += term + node_own(s, node, s->y[node]);
 	}
 	return sum;
 }
 
-/* The terms of a station's nodes first_k .. last_k, into `terms` too. */
+SHARED_FUNCTION void slopes_keep(STATE node_slopes *kept, node_slopes d, mask moved)
+{
+	kept->y_x = CHOOSE(moved, d.y_x, kept->y_x);
+	kept->y_z = CHOOSE(moved, d.y_z, kept->y_z);
+	kept->y_xx = CHOOSE(moved, d.y_xx, kept->y_xx);
+	kept->y_xz = CHOOSE(moved, d.y_xz, kept->y_xz);
+	kept->y_zz = CHOOSE(moved, d.y_zz, kept->y_zz);
+}
+
 SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k,
-                                      STATE real *terms)
+                                      int keeps, mask moved)
 {
 	if (GRID_FAIRNESS == GRID_VARIATION)
-		return column_third_objective(s, station, first_k, last_k, terms);
+		return column_third_objective(s, station, first_k, last_k, keeps, moved);
 	scalar x[STENCIL_SIZE];
 	real sum = SPREAD(LITERAL(0.0));
 	UNROLLED
 	for (int w = 0; w < STENCIL_SIZE; w++)
 		x[w] = s->along_x[station * STENCIL_SIZE + w];
 	int node = node_of(s, station, first_k);
+	row_slopes below = row_of(s, x, node - s->stride);
 	row_slopes here = row_of(s, x, node);
-	const row_slopes low = row_of(s, x, node - s->stride);
-	real below = here.here - low.here;
-	real twist = here.first - low.first;
 	ROLLED
-	for (int k = first_k; k <= last_k; k++) {
+	for (int k = first_k; k <= last_k; k++, node += s->stride) {
 		GLOBAL const scalar *z = s->along_z + k * STENCIL_SIZE;
-		const row_slopes next = row_of(s, x, node + s->stride);
-		const real above = next.here - here.here;
-		const real turn = next.first - here.first;
-		const node_slopes slopes = { here.first, z[0] * below + z[1] * above, here.second,
-			                         z[0] * twist + z[1] * turn, z[3] * above - z[2] * below };
-		real term = node_objective(GRID_FAIRNESS, s->weights, slopes, s->bend[node], s->close[node],
-		                           here.here, s->target[node]);
-		if (GRID_PENALTY)
-			term += node_penalty(s->penalty, here.here, s->lower[node], s->upper[node]);
-		terms[node] = term;
-		sum += term;
-		here = next;
-		below = above;
-		twist = turn;
-		node += s->stride;
+		const row_slopes above = row_of(s, x, node + s->stride);
+		const node_slopes d = { here.first,
+			                    stencil_first(z[0], z[1], below.here, here.here, above.here),
+			                    here.second,
+			                    stencil_first(z[0], z[1], below.first, here.first, above.first),
+			                    stencil_second(z[2], z[3], below.here, here.here, above.here) };
+		const real term = node_energy(s->bend[node], node_fairness(GRID_FAIRNESS, s->weights, d));
+		if (keeps) {
+			s->terms[node] = CHOOSE(moved, term, s->terms[node]);
+			slopes_keep(s->slopes + node, d, moved);
+		}
+		sum += term + node_own(s, node, here.here);
+		below = here;
+		here = above;
 	}
 	return sum;
 }
 
-/* The terms at y of all nodes, to begin with. */
+/* Terms and derivatives at y of all nodes, to begin with. */
 SHARED_FUNCTION void grid_terms_begin(const search_state *s)
 {
+	const real zero = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int i = WORK_ITEM; i < s->stations; i += WORK_ITEMS)
-		(void)column_objective(s, i, 0, s->waterlines - 1, s->terms);
+		(void)column_objective(s, i, 0, s->waterlines - 1, 1, zero == zero);
 	WAIT;
 }
 
-/* The objective over the nodes whose terms a hat can change, as known before its probes. */
-SHARED_FUNCTION real hat_objective_before(const search_state *s, const search_move *move)
+/* Nodes whose terms a hat can change. */
+typedef struct hat_window {
+	int first_i, last_i, first_k, last_k;
+} hat_window;
+
+SHARED_FUNCTION hat_window hat_window_of(const search_state *s, const search_move *move)
 {
 	const int reach = GRID_REACH(GRID_FAIRNESS);
-	const int first_k = hat_first(move->waterline, move->width_z, reach);
-	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
+	const hat_window w = { hat_first(move->station, move->width_x, reach),
+		                   hat_last(move->station, move->width_x, reach, s->stations),
+		                   hat_first(move->waterline, move->width_z, reach),
+		                   hat_last(move->waterline, move->width_z, reach, s->waterlines) };
+	return w;
+}
+
+/* The objective there as known before a hat's probes, stations own_first .. own_last with what nodes have of
+ * their own. */
+SHARED_FUNCTION real hat_objective_before(const search_state *s, const hat_window *w, int own_first,
+                                          int own_last)
+{
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
-	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++) {
+	for (int i = w->first_i; i <= w->last_i; i++) {
+		const int owns = i >= own_first && i <= own_last;
 		real column = SPREAD(LITERAL(0.0));
-		int node = node_of(s, i, first_k);
+		int node = node_of(s, i, w->first_k);
 		ROLLED
-		for (int k = first_k; k <= last_k; k++, node += s->stride)
+		for (int k = w->first_k; k <= w->last_k; k++, node += s->stride) {
 			column += s->terms[node];
+			if (owns)
+				column += node_own(s, node, s->y[node]);
+		}
 		sum += column;
 	}
 	return sum;
 }
 
-/* The same after its step, from turn 1 on; the terms into s->found. */
-SHARED_FUNCTION real hat_objective(const search_state *s, const search_move *move, int turn)
+/* The same at y. */
+SHARED_FUNCTION real hat_objective(const search_state *s, const hat_window *w, int keeps,
+                                   mask moved)
 {
-	const int reach = GRID_REACH(GRID_FAIRNESS);
-	const int first_k = hat_first(move->waterline, move->width_z, reach);
-	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
 	real sum = SPREAD(LITERAL(0.0));
-	hat_place(s, move, turn > 1);
 	ROLLED
-	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++)
-		sum += column_objective(s, i, first_k, last_k, s->found);
+	for (int i = w->first_i; i <= w->last_i; i++)
+		sum += column_objective(s, i, w->first_k, w->last_k, keeps, moved);
 	return sum;
 }
 
-/* Takes the step and, where there is one, the terms that the last probe found: that of this step. */
-SHARED_FUNCTION void hat_end(const search_state *s, const search_move *move)
-{
-	const int reach = GRID_REACH(GRID_FAIRNESS);
-	const int first_k = hat_first(move->waterline, move->width_z, reach);
-	const int last_k = hat_last(move->waterline, move->width_z, reach, s->waterlines);
-	const int last_i = hat_last(move->station, move->width_x, reach, s->stations);
-	const mask moved = move->step != SPREAD(LITERAL(0.0));
-	hat_place(s, move, 1);
-	if (!ANY(moved))
-		return;
-	ROLLED
-	for (int i = hat_first(move->station, move->width_x, reach); i <= last_i; i++) {
-		int node = node_of(s, i, first_k);
-		ROLLED
-		for (int k = first_k; k <= last_k; k++, node += s->stride)
-			s->terms[node] = CHOOSE(moved, s->found[node], s->terms[node]);
-	}
-}
-
-/* ---- single offsets ---- */
-
-/* What a step of one does to the derivatives along one direction of the nodes before, at and behind the
- * offset. */
+/* What a step of one offset does to the derivatives along one direction of the nodes before, at and behind
+ * it. */
 typedef struct single_stencil {
 	scalar first[3], second[3];
 } single_stencil;
-
-typedef struct single_offset {
-	int node;
-	single_stencil x, z;
-	node_slopes at[9]; /* of the 3 x 3 nodes, waterline by waterline, before the move */
-	node_tangent corner[4];
-	real bend[9];
-	real y, lower, upper, target, close;
-} single_offset;
 
 /* A ring node next to the grid has no term, whatever its weights. */
 SHARED_FUNCTION single_stencil single_stencil_of(GLOBAL const scalar *along, int at, int count)
@@ -219,34 +219,114 @@ SHARED_FUNCTION single_stencil single_stencil_of(GLOBAL const scalar *along, int
 	return stencil;
 }
 
-/* The three nodes of one waterline, row 0 .. 2. */
-SHARED_FUNCTION void single_row(const search_state *s, int station, int waterline, int row,
-                                single_offset *o)
+/* ---- thin hats ---- */
+
+/* How far a hat moves the node at waterline k, and those below and above it. */
+typedef struct thin_moves {
+	real below, here, above;
+} thin_moves;
+
+SHARED_FUNCTION real thin_move(const search_state *s, const search_move *move, int node, int k)
 {
-	const int last = s->stations - 1;
-	const int k = within(waterline, 0, s->waterlines - 1);
-	/* Beyond the ring nothing is read: what is beside it has no term. */
-	const int aft = station > 0 ? -2 : -1;
-	const int fore = station < last ? 2 : 1;
-	const int here = node_of(s, station, waterline);
-	const int below = here - (waterline >= 0 ? s->stride : 0);
-	const int above = here + (waterline < s->waterlines ? s->stride : 0);
-	const STATE real *b = s->y + below;
-	const STATE real *h = s->y + here;
-	const STATE real *a = s->y + above;
-	const node_row b0 = { b[aft], b[-1], b[0] }, h0 = { h[aft], h[-1], h[0] },
-				   a0 = { a[aft], a[-1], a[0] };
-	const node_row b1 = { b[-1], b[0], b[1] }, h1 = { h[-1], h[0], h[1] },
-				   a1 = { a[-1], a[0], a[1] };
-	const node_row b2 = { b[0], b[1], b[fore] }, h2 = { h[0], h[1], h[fore] },
-				   a2 = { a[0], a[1], a[fore] };
-	o->at[3 * row] = slopes_of(stencil_of(s, within(station - 1, 0, last), k), b0, h0, a0);
-	o->at[3 * row + 1] = slopes_of(stencil_of(s, station, k), b1, h1, a1);
-	o->at[3 * row + 2] = slopes_of(stencil_of(s, within(station + 1, 0, last), k), b2, h2, a2);
-	o->bend[3 * row] = s->bend[here - 1];
-	o->bend[3 * row + 1] = s->bend[here];
-	o->bend[3 * row + 2] = s->bend[here + 1];
+	const scalar height = hat_height(k - move->waterline, move->inverse_z);
+	const real y = s->y[node];
+	return step_from(s, y, height * move->step, s->lower[node], s->upper[node]) - y;
 }
+
+/* What these do to the derivatives along z. */
+typedef struct thin_change {
+	real first, second;
+} thin_change;
+
+SHARED_FUNCTION thin_change thin_change_of(GLOBAL const scalar *z, const thin_moves *m)
+{
+	const thin_change change = { stencil_first(z[0], z[1], m->below, m->here, m->above),
+		                         stencil_second(z[2], z[3], m->below, m->here, m->above) };
+	return change;
+}
+
+/* The derivatives of a node aft (column 0), of (1) or forward (2) of the hat's station after its move. */
+SHARED_FUNCTION node_slopes thin_slopes(const STATE node_slopes *kept, const single_stencil *x,
+                                        int column, real moved, thin_change change)
+{
+	const real first = SPREAD(x->first[column]);
+	node_slopes d = *kept;
+	d.y_x = PRODUCT_AND(first, moved, d.y_x);
+	d.y_xx = PRODUCT_AND(SPREAD(x->second[column]), moved, d.y_xx);
+	d.y_xz = PRODUCT_AND(first, change.first, d.y_xz);
+	if (column == 1) {
+		d.y_z += change.first;
+		d.y_zz += change.second;
+	}
+	return d;
+}
+
+SHARED_FUNCTION real thin_term(const search_state *s, const single_stencil *x, int node, int column,
+                               real moved, thin_change change)
+{
+	const int at = node + column - 1;
+	const node_slopes d = thin_slopes(s->slopes + at, x, column, moved, change);
+	const real term = node_energy(s->bend[at], node_fairness(GRID_FAIRNESS, s->weights, d));
+	s->found[at] = term;
+	return term;
+}
+
+/* The objective after the hat's step; the terms into s->found. */
+SHARED_FUNCTION real thin_objective(const search_state *s, const search_move *move,
+                                    const hat_window *w, const single_stencil *x)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	int node = node_of(s, move->station, w->first_k);
+	thin_moves m = { zero, zero, thin_move(s, move, node, w->first_k) };
+	real sum = zero;
+	ROLLED
+	for (int k = w->first_k; k <= w->last_k; k++, node += s->stride) {
+		m.below = m.here;
+		m.here = m.above;
+		m.above = thin_move(s, move, node + s->stride, k + 1);
+		const thin_change change = thin_change_of(s->along_z + k * STENCIL_SIZE, &m);
+		const real aft = thin_term(s, x, node, 0, m.here, change);
+		const real here = thin_term(s, x, node, 1, m.here, change);
+		const real fore = thin_term(s, x, node, 2, m.here, change);
+		sum += ((aft + here) + fore) + node_own(s, node, s->y[node] + m.here);
+	}
+	return sum;
+}
+
+/* Takes the step: offsets, derivatives, and the terms that the last probe found, which was of this step. */
+SHARED_FUNCTION void thin_end(const search_state *s, const search_move *move, const hat_window *w,
+                              const single_stencil *x)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const mask taken = move->step != zero;
+	int node = node_of(s, move->station, w->first_k);
+	thin_moves m = { zero, zero, thin_move(s, move, node, w->first_k) };
+	ROLLED
+	for (int k = w->first_k; k <= w->last_k; k++, node += s->stride) {
+		m.below = m.here;
+		m.here = m.above;
+		m.above = thin_move(s, move, node + s->stride, k + 1);
+		const thin_change change = thin_change_of(s->along_z + k * STENCIL_SIZE, &m);
+		UNROLLED
+		for (int column = 0; column < 3; column++) {
+			const int at = node + column - 1;
+			s->slopes[at] = thin_slopes(s->slopes + at, x, column, m.here, change);
+			s->terms[at] = CHOOSE(taken, s->found[at], s->terms[at]);
+		}
+		s->y[node] += m.here;
+	}
+}
+
+/* ---- single offsets ---- */
+
+typedef struct single_offset {
+	int node;
+	single_stencil x, z;
+	node_slopes at[9]; /* of the 3 x 3 nodes, waterline by waterline, before the move */
+	node_tangent corner[4];
+	real bend[9];
+	real y, lower, upper, target, close;
+} single_offset;
 
 SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterline,
                                   single_offset *o)
@@ -259,9 +339,12 @@ SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterl
 	o->upper = s->upper[o->node];
 	o->target = s->target[o->node];
 	o->close = s->close[o->node];
-	single_row(s, station, waterline - 1, 0, o);
-	single_row(s, station, waterline, 1, o);
-	single_row(s, station, waterline + 1, 2, o);
+	UNROLLED
+	for (int n = 0; n < 9; n++) {
+		const int node = o->node + (n / 3 - 1) * s->stride + n % 3 - 1;
+		o->at[n] = s->slopes[node];
+		o->bend[n] = s->bend[node];
+	}
 	UNROLLED
 	for (int c = 0; c < 4; c++) {
 		const node_slopes d = o->at[c / 2 * 6 + c % 2 * 2];
@@ -269,43 +352,38 @@ SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterl
 	}
 }
 
+/* The derivatives of one of the nodes after a move. */
+SHARED_FUNCTION node_slopes single_slopes(const single_offset *o, int row, int column, real moved)
+{
+	node_slopes d = o->at[3 * row + column];
+	d.y_xz = PRODUCT_AND(SPREAD(o->x.first[column] * o->z.first[row]), moved, d.y_xz);
+	if (row == 1) {
+		d.y_x = PRODUCT_AND(SPREAD(o->x.first[column]), moved, d.y_x);
+		d.y_xx = PRODUCT_AND(SPREAD(o->x.second[column]), moved, d.y_xx);
+	}
+	if (column == 1) {
+		d.y_z = PRODUCT_AND(SPREAD(o->z.first[row]), moved, d.y_z);
+		d.y_zz = PRODUCT_AND(SPREAD(o->z.second[row]), moved, d.y_zz);
+	}
+	return d;
+}
+
 /* The fairness of a corner: y_xz alone changes, and with it neither root nor division. */
 SHARED_FUNCTION real single_corner(const search_state *s, const single_offset *o, int row,
                                    int column, real moved)
 {
-	const int n = 3 * row + column;
-	const node_slopes d = o->at[n];
-	const real y_xz = d.y_xz + (o->x.first[column] * o->z.first[row]) * moved;
-	return node_energy(o->bend[n], fairness_of(GRID_FAIRNESS, s->weights,
-	                                           o->corner[row + column / 2], d.y_xx, y_xz, d.y_zz));
+	const node_slopes d = single_slopes(o, row, column, moved);
+	const real fairness = fairness_of(GRID_FAIRNESS, s->weights, o->corner[row + column / 2],
+	                                  d.y_xx, d.y_xz, d.y_zz);
+	return node_energy(o->bend[3 * row + column], fairness);
 }
 
-/* That of the nodes aft and forward of the offset. */
-SHARED_FUNCTION real single_side(const search_state *s, const single_offset *o, int column,
-                                 real moved)
+/* That of the other nodes. */
+SHARED_FUNCTION real single_beside(const search_state *s, const single_offset *o, int row,
+                                   int column, real moved)
 {
-	const int n = 3 + column;
-	node_slopes d = o->at[n];
-	d.y_x += o->x.first[column] * moved;
-	d.y_xx += o->x.second[column] * moved;
-	d.y_xz += (o->x.first[column] * o->z.first[1]) * moved;
-	return node_energy(o->bend[n], node_fairness(GRID_FAIRNESS, s->weights, d));
-}
-
-/* That of the nodes below and above, or, with what its station adds, of the offset's own. */
-SHARED_FUNCTION real single_upright(const search_state *s, const single_offset *o, int row,
-                                    real moved)
-{
-	const int n = 3 * row + 1;
-	node_slopes d = o->at[n];
-	if (row == 1) {
-		d.y_x += o->x.first[1] * moved;
-		d.y_xx += o->x.second[1] * moved;
-	}
-	d.y_z += o->z.first[row] * moved;
-	d.y_zz += o->z.second[row] * moved;
-	d.y_xz += (o->x.first[1] * o->z.first[row]) * moved;
-	return node_energy(o->bend[n], node_fairness(GRID_FAIRNESS, s->weights, d));
+	const node_slopes d = single_slopes(o, row, column, moved);
+	return node_energy(o->bend[3 * row + column], node_fairness(GRID_FAIRNESS, s->weights, d));
 }
 
 /* The objective over the nodes whose terms the offset can change, after a step. */
@@ -313,12 +391,12 @@ SHARED_FUNCTION real single_objective(const search_state *s, const single_offset
 {
 	const real y = step_from(s, o->y, step, o->lower, o->upper);
 	const real moved = y - o->y;
-	const real below = (single_corner(s, o, 0, 0, moved) + single_upright(s, o, 0, moved)) +
+	const real below = (single_corner(s, o, 0, 0, moved) + single_beside(s, o, 0, 1, moved)) +
 	                   single_corner(s, o, 0, 2, moved);
-	const real above = (single_corner(s, o, 2, 0, moved) + single_upright(s, o, 2, moved)) +
+	const real above = (single_corner(s, o, 2, 0, moved) + single_beside(s, o, 2, 1, moved)) +
 	                   single_corner(s, o, 2, 2, moved);
-	const real here = (single_side(s, o, 0, moved) + single_upright(s, o, 1, moved)) +
-	                  single_side(s, o, 2, moved);
+	const real here = (single_beside(s, o, 1, 0, moved) + single_beside(s, o, 1, 1, moved)) +
+	                  single_beside(s, o, 1, 2, moved);
 	real own = node_closeness(o->close, y, o->target);
 	if (GRID_PENALTY)
 		own += node_penalty(s->penalty, y, o->lower, o->upper);
@@ -327,7 +405,15 @@ SHARED_FUNCTION real single_objective(const search_state *s, const single_offset
 
 SHARED_FUNCTION void single_end(const search_state *s, const single_offset *o, real step)
 {
-	s->y[o->node] = step_from(s, o->y, step, o->lower, o->upper);
+	if (!ANY(step != SPREAD(LITERAL(0.0))))
+		return;
+	const real y = step_from(s, o->y, step, o->lower, o->upper);
+	const real moved = y - o->y;
+	s->y[o->node] = y;
+	UNROLLED
+	for (int n = 0; n < 9; n++)
+		s->slopes[o->node + (n / 3 - 1) * s->stride + n % 3 - 1] = single_slopes(o, n / 3, n % 3,
+		                                                                         moved);
 }
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef BATTEN_SHARED_GRID_SEARCH_H
 #define BATTEN_SHARED_GRID_SEARCH_H
 
+#define GRID_FUSED 1
 #include "grid_moves.h"
 
 /* Takes the levels, SEARCH_LEVEL_SIZE numbers each, and the station and waterline of each direction. */
@@ -14,6 +15,16 @@ SHARED_FUNCTION void search_levels(search_state *s, int level_count, GLOBAL cons
 	s->wide_colours = search_wide_levels(levels, level_count) * GRID_COLOURS(GRID_FAIRNESS);
 	s->levels = levels;
 	s->centres = centres;
+}
+
+/* Derivatives of ring nodes are read beside the grid's edge, though none has a term. */
+SHARED_FUNCTION void search_slopes_clear(const search_state *s)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const node_slopes none = { zero, zero, zero, zero, zero };
+	ROLLED
+	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
+		s->slopes[n] = none;
 }
 
 /* The level of a colour: all colours of the coarsest level first. */
@@ -42,16 +53,19 @@ SHARED_FUNCTION void move_begin(const search_state *s, int colour, int direction
 	move->inverse_z = LITERAL(1.0) / (scalar)level[SEARCH_LEVEL_WIDTH_Z];
 }
 
-/* An exploratory move along a hat. Returns the step taken. */
-SHARED_FUNCTION real hat_explore(const search_state *s, search_move *move, real h, real *extra)
+/* An exploratory move along a thin hat. Returns the step taken. */
+SHARED_FUNCTION real thin_explore(const search_state *s, search_move *move, real h, real *extra)
 {
 	const real zero = SPREAD(LITERAL(0.0));
+	const hat_window window = hat_window_of(s, move);
+	const single_stencil x = single_stencil_of(s->along_x, move->station, s->stations);
 	search_trial trial = search_trial_begin();
-	(void)search_trial_next(&trial, 0, h, hat_objective_before(s, move), extra);
+	const real before = hat_objective_before(s, &window, move->station, move->station);
+	(void)search_trial_next(&trial, 0, h, before, extra);
 	move->step = trial.next;
 	ROLLED
 	for (int turn = 1;; turn++) {
-		const real sum = hat_objective(s, move, turn);
+		const real sum = thin_objective(s, move, &window, &x);
 		if (turn > 3)
 			break; /* the step taken, worked again */
 		if (search_trial_next(&trial, turn, h, sum, extra)) {
@@ -64,13 +78,42 @@ SHARED_FUNCTION real hat_explore(const search_state *s, search_move *move, real 
 			break; /* the terms of the last probe are those of the step taken */
 		turn = 3;
 	}
-	hat_end(s, move);
+	if (ANY(move->step != zero))
+		thin_end(s, move, &window, &x);
+	return move->step;
+}
+
+/* An exploratory move along a wider hat. Returns the step taken. */
+SHARED_FUNCTION real hat_explore(const search_state *s, search_move *move, real h, real *extra)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const hat_window window = hat_window_of(s, move);
+	search_trial trial = search_trial_begin();
+	const real before = hat_objective_before(s, &window, window.first_i, window.last_i);
+	(void)search_trial_next(&trial, 0, h, before, extra);
+	move->step = trial.next;
+	ROLLED
+	for (int turn = 1;; turn++) {
+		const int taken = turn > 3;
+		hat_place(s, move, turn > 1);
+		if (taken && !ANY(move->step != zero))
+			break;
+		const real sum = hat_objective(s, &window, taken, move->step != zero);
+		if (taken)
+			break;
+		if (search_trial_next(&trial, turn, h, sum, extra)) {
+			move->step = trial.next;
+			continue;
+		}
+		move->step = search_trial_end(&trial);
+		turn = 3;
+	}
 	return move->step;
 }
 
 /* An exploratory move of a single offset. Returns the step taken. */
 SHARED_FUNCTION real single_explore(const search_state *s, int station, int waterline, real h,
-                                  real *extra)
+                                    real *extra)
 {
 	single_offset offset;
 	search_trial trial = search_trial_begin();
@@ -86,19 +129,18 @@ SHARED_FUNCTION real single_explore(const search_state *s, int station, int wate
 
 /* An exploratory move along one direction. Returns the length of the step taken. */
 SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int direction, real h,
-                                     real *extra)
+                                       real *extra)
 {
 	GLOBAL const int *level = level_of(s, colour);
 	search_move move;
 	real step;
-	if (GRID_FAIRNESS == GRID_VARIATION || level[SEARCH_LEVEL_WIDTH_X] > 1 ||
-	    level[SEARCH_LEVEL_WIDTH_Z] > 1) {
-		move_begin(s, colour, direction, &move);
+	move_begin(s, colour, direction, &move);
+	if (GRID_FAIRNESS == GRID_VARIATION || level[SEARCH_LEVEL_WIDTH_X] > 1)
 		step = hat_explore(s, &move, h, extra);
-	} else {
-		step = single_explore(s, s->centres[2 * direction], s->centres[2 * direction + 1], h,
-		                      extra);
-	}
+	else if (level[SEARCH_LEVEL_WIDTH_Z] > 1)
+		step = thin_explore(s, &move, h, extra);
+	else
+		step = single_explore(s, move.station, move.waterline, h, extra);
 	return CHOOSE(step < SPREAD(LITERAL(0.0)), -step, step);
 }
 

@@ -22,6 +22,7 @@ typedef struct search_state {
 	STATE real *y, *base, *trial;
 	STATE real *terms, *found; /* the objective's at y; as a probe found them */
 	STATE real *ways;          /* of iterations before */
+	STATE node_slopes *slopes; /* derivatives at y, kept from move to move */
 	GLOBAL const real *lower, *upper, *target, *bend, *close;
 	int level_count, colour_count, wide_colours; /* the rest is for those that work along hats */
 	GLOBAL const int *levels, *centres;
@@ -121,6 +122,7 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.terms = room + 3 * s.nodes;
 	s.found = room + 4 * s.nodes;
 	s.ways = room + 5 * s.nodes;
+	s.slopes = (STATE node_slopes *)(room + (5 + GRID_WAYS - 1) * s.nodes);
 	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
 	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
 	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;

@@ -19,8 +19,8 @@ enum {
 #define GRID_WAYS 2
 #define NET_WAYS 4
 
-/* Arrays of nodes that a search works in. */
-#define SEARCH_STATE_COUNT (5 + GRID_WAYS - 1)
+/* Arrays of nodes that a search works in: five, remembered ways, five derivatives. */
+#define SEARCH_STATE_COUNT (5 + GRID_WAYS - 1 + 5)
 
 /* What an offset grid is to be low in. */
 enum {

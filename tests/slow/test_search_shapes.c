@@ -21,7 +21,7 @@ static void test_lanes(void **state)
 	(void)state;
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 1, 1, false, GRID_BENDING, false, false },
-		{ 0, BATTEN_F64, 16, 1, false, GRID_BENDING, false, false },
+		{ 0, BATTEN_F64, 16, 1, true, GRID_BENDING, false, false },
 		{ 0, BATTEN_F32, 8, 1, false, GRID_BENDING, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
