@@ -211,15 +211,18 @@ SHARED_FUNCTION void variants_take_given(const variants_state *s, GLOBAL const r
 	variants_find_lines(s);
 }
 
-/* Everything at every draft. */
+/* Everything at every draft. No condition stands around a barrier: without drafts there are no lines to go
+ * along. */
 SHARED_FUNCTION void variants_take_forms(const variants_state *s)
 {
+	const int waterlines = s->drafts > 0 ? s->waterlines : 0;
+	const int stations = s->drafts > 0 ? s->stations : 0;
 	ROLLED
-	for (int w = WORK_ITEM; w < s->waterlines; w += WORK_ITEMS)
+	for (int w = WORK_ITEM; w < waterlines; w += WORK_ITEMS)
 		variants_find_slopes(s, w);
 	WAIT;
 	ROLLED
-	for (int i = WORK_ITEM; i < s->stations; i += WORK_ITEMS) {
+	for (int i = WORK_ITEM; i < stations; i += WORK_ITEMS) {
 		const variants_foot foot = variants_foot_of(s, i);
 		ROLLED
 		for (int d = 0; d < s->drafts; d++)
