@@ -129,28 +129,48 @@ SHARED_FUNCTION variants_run variants_place_ends(const variants_state *s, int w)
 	return run;
 }
 
-SHARED_FUNCTION variants_run variants_run_of(const variants_state *s, int w)
+/* Slots of points, of positive ones, and how many points there are. */
+typedef struct variants_reach {
+	real lowest, highest, first, last, count;
+} variants_reach;
+
+/* ended: a constant. Where half-breadths are positive there are points. */
+SHARED_FUNCTION variants_reach variants_reach_of(const variants_state *s, int w, variants_run run,
+                                                 int ended)
 {
 	const real far = NUMBER(s->slots);
-	variants_run run = variants_place_ends(s, w);
-	/* slots of points, of positive ones, of empty ones between points */
-	real lowest = far, highest = -ONE, first = far, last = -ONE, hole = -ONE, gap = -ONE;
+	STATE const real *on = s->on + w * s->stations - 1, *y = s->y + w * s->stations - 1;
+	variants_reach r = { far, -ONE, far, -ONE, ZERO };
 	ROLLED
-	for (int i = 0; i < s->slots; i++) {
+	for (int i = ended ? 0 : 1; i < (ended ? s->slots : s->slots - 1); i++) {
 		const real here = NUMBER(i);
-		const mask on = variants_station_on(s, w, i) | (run.aft == here) | (run.fore == here);
-		const mask positive = on & (variants_slot_y(s, w, i, run) > ZERO);
-		gap = MOST_OF(gap, CHOOSE(on, hole, -ONE));
-		lowest = LEAST_OF(lowest, CHOOSE(on, here, far));
-		highest = CHOOSE(on, here, highest);
-		first = LEAST_OF(first, CHOOSE(positive, here, far));
-		last = CHOOSE(positive, here, last);
-		hole = CHOOSE(!on & (lowest < far), here, hole);
+		mask is_on, positive;
+		if (ended) {
+			is_on = variants_station_on(s, w, i) | (run.aft == here) | (run.fore == here);
+			positive = is_on & (variants_slot_y(s, w, i, run) > ZERO);
+		} else {
+			is_on = on[i] > ZERO;
+			positive = y[i] > ZERO;
+		}
+		r.lowest = LEAST_OF(r.lowest, CHOOSE(is_on, here, far));
+		r.highest = CHOOSE(is_on, here, r.highest);
+		r.first = LEAST_OF(r.first, CHOOSE(positive, here, far));
+		r.last = CHOOSE(positive, here, r.last);
+		r.count += CHOOSE(is_on, ONE, ZERO);
 	}
-	const mask none = last < ZERO;
-	run.first = CHOOSE(none, lowest, MOST_OF(lowest, first - ONE));
-	run.last = CHOOSE(none, highest, LEAST_OF(highest, last + ONE));
-	run.irregular = run.irregular | (gap >= ZERO);
+	return r;
+}
+
+SHARED_FUNCTION variants_run variants_run_of(const variants_state *s, int w)
+{
+	variants_run run = variants_place_ends(s, w);
+	const variants_reach r = run.ended ? variants_reach_of(s, w, run, 1)
+	                                   : variants_reach_of(s, w, run, 0);
+	const mask none = r.last < ZERO;
+	run.first = CHOOSE(none, r.lowest, MOST_OF(r.lowest, r.first - ONE));
+	run.last = CHOOSE(none, r.highest, LEAST_OF(r.highest, r.last + ONE));
+	/* empty slots between points */
+	run.irregular = run.irregular | (r.count < r.highest - r.lowest + ONE);
 	return run;
 }
 
@@ -229,7 +249,7 @@ SHARED_FUNCTION real variants_edge_at(const variants_state *s, int station, int 
 SHARED_FUNCTION void variants_find_section(const variants_state *s, int station)
 {
 	const real far = NUMBER(s->waterlines);
-	real lowest = far, positive = far, hole = -ONE, first = far, before = ZERO, y = ZERO,
+	real lowest = far, positive = far, empty = -ONE, first = far, before = ZERO, y = ZERO,
 		 under = ZERO;
 	/* least and most of what each waterline would be, so that none waits for the one before */
 	ROLLED
@@ -238,9 +258,9 @@ SHARED_FUNCTION void variants_find_section(const variants_state *s, int station)
 		const mask is_on = on > ZERO;
 		under = y;
 		y = s->y[w * s->stations + station];
-		const mask wide = is_on & (y > ZERO);
+		const mask wide = y > ZERO;
 		lowest = LEAST_OF(lowest, CHOOSE(is_on, here, far));
-		hole = MOST_OF(hole, CHOOSE(!is_on & (lowest < far), here, -ONE));
+		empty = CHOOSE(is_on, empty, here);
 		positive = LEAST_OF(positive, CHOOSE(wide, here, far));
 		first = LEAST_OF(first, CHOOSE(wide, CHOOSE(before > ZERO, here - ONE, here), far));
 		before = on;
@@ -249,7 +269,9 @@ SHARED_FUNCTION void variants_find_section(const variants_state *s, int station)
 	first = CHOOSE(none, lowest, first);
 	/* y and under are the topmost two */
 	const mask closes = !none & (y <= ZERO) & (under <= ZERO);
-	const mask gap = (hole >= first) | ((first == positive) & (lowest < positive));
+	/* empty: the topmost one */
+	const mask hole = (empty > lowest) & (empty >= first);
+	const mask gap = hole | ((first == positive) & (lowest < positive));
 	s->first[station] = first;
 	s->bad[s->waterlines + station] = CHOOSE((first < far) & (closes | gap), ONE, ZERO);
 	real edge = NONE;

@@ -244,26 +244,26 @@ SHARED_FUNCTION int variants_take_station(const variants_state *s, const variant
  * Nodes
  * --------------------------------------------------------------------------------------------- */
 
+/* At an edge of the table a node stands for the one beyond it: what it has itself changes nothing. */
 SHARED_FUNCTION void variants_take_nodes(const variants_state *s, int w)
 {
-	GLOBAL const scalar *nodes = TABLE(s, NODES) + w * s->stations;
-	STATE const real *y = s->y + w * s->stations;
+	const int stations = s->stations;
+	GLOBAL const scalar *nodes = TABLE(s, NODES) + w * stations;
+	STATE const real *y = s->y + w * stations;
+	STATE const real *above = w + 1 < s->waterlines ? y + stations : y;
+	STATE real *on = s->on + w * stations;
+	real aft = y[0], here = y[0];
 	s->bad[w] = ZERO;
 	ROLLED
-	for (int i = 0; i < s->stations; i++) {
+	for (int i = 0; i < stations; i++) {
 		const int kind = (int)nodes[i];
-		real on = CHOOSE(y[i] > ZERO, ONE, ZERO);
-		if (kind & VARIANTS_NODE_BESIDE) {
-			real most = ZERO;
-			if (i > 0)
-				most = MOST_OF(most, y[i - 1]);
-			if (i + 1 < s->stations)
-				most = MOST_OF(most, y[i + 1]);
-			if (w + 1 < s->waterlines)
-				most = MOST_OF(most, y[s->stations + i]);
-			on = CHOOSE(most > ZERO, ONE, on);
-		}
-		s->on[w * s->stations + i] = kind & VARIANTS_NODE_ALWAYS ? ONE : on;
+		const real fore = y[i + 1 < stations ? i + 1 : i];
+		real most = here;
+		if (kind & VARIANTS_NODE_BESIDE)
+			most = MOST_OF(MOST_OF(aft, fore), MOST_OF(here, above[i]));
+		on[i] = kind & VARIANTS_NODE_ALWAYS ? ONE : CHOOSE(most > ZERO, ONE, ZERO);
+		aft = here;
+		here = fore;
 	}
 }
 
