@@ -112,8 +112,7 @@ static batten_status run_pieces(struct task *task, variants_plan *plan, size_t c
                                 batten_run *run)
 {
 	const size_t piece = count < PIECE ? count : PIECE;
-	batten_status status = offsets_tables_fill(task->table, task->drafts_m, task->table->draft_m,
-	                                           plan);
+	batten_status status = offsets_tables_fill(task->table, task->drafts_m, NAN, plan);
 	plan->out = batten_allocate(task->context, piece,
 	                            variants_plan_outcome(plan) * sizeof *plan->out);
 	if (!plan->out && status == BATTEN_OK)

@@ -175,7 +175,8 @@ batten_status offsets_tables_fill(const batten_hull *hull, const double *drafts_
                                   variants_plan *plan)
 {
 	const size_t lines = hull->waterline_count;
-	const size_t count = (size_t)plan->shape[VARIANTS_DRAFTS] + 1;
+	const size_t asked = (size_t)plan->shape[VARIANTS_DRAFTS];
+	const size_t count = asked + (isnan(target_m) ? 0 : 1);
 	double *drafts = variants_plan_table(plan, VARIANTS_AT_DRAFTS);
 	double *rules = variants_plan_table(plan, VARIANTS_AT_RULES);
 	double *unit = batten_allocate(hull->context, lines, sizeof *unit);
@@ -184,8 +185,8 @@ batten_status offsets_tables_fill(const batten_hull *hull, const double *drafts_
 	fill_places(hull, plan);
 	fill_rule(1, rules);
 	for (size_t d = 0; d < count; d++) {
-		fill_draft(hull, d + 1 < count ? drafts_m[d] : target_m, drafts + 4 * d);
-		if (d + 1 < count)
+		fill_draft(hull, d < asked ? drafts_m[d] : target_m, drafts + 4 * d);
+		if (d < asked)
 			fill_rule(drafts[4 * d + 2], rules + 35 * (d + 1));
 	}
 	batten_status status = BATTEN_OK;

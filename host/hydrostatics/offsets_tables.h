@@ -11,7 +11,7 @@
 bool offsets_tables_fit(const batten_hull *hull, batten_quadrature rule, size_t draft_count);
 
 /* Fills what depends on table and drafts; the plan is of that size. target_m is the draft of the
- * targets. Errors: MEMORY. */
+ * targets, NAN where there are none. Errors: MEMORY. */
 batten_status offsets_tables_fill(const batten_hull *hull, const double *drafts_m, double target_m,
                                   variants_plan *plan);
 

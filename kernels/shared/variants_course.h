@@ -217,9 +217,10 @@ SHARED_FUNCTION void variants_take_forms(const variants_state *s)
 {
 	const int waterlines = s->drafts > 0 ? s->waterlines : 0;
 	const int stations = s->drafts > 0 ? s->stations : 0;
+	variants_knots knots = { 0, ZERO, ZERO };
 	ROLLED
 	for (int w = WORK_ITEM; w < waterlines; w += WORK_ITEMS)
-		variants_find_slopes(s, w);
+		variants_find_slopes(s, w, &knots);
 	WAIT;
 	ROLLED
 	for (int i = WORK_ITEM; i < stations; i += WORK_ITEMS) {

@@ -15,7 +15,7 @@
 
 /* Room for one line (VARIANTS_LINE_...). */
 typedef struct variants_line {
-	STATE real *at, *step, *pivot, *factor, *value, *bend;
+	STATE real *at, *step, *pivot, *factor, *value, *bend, *below, *scale;
 } variants_line;
 
 SHARED_FUNCTION variants_line variants_line_in(STATE real *room, int slots)
@@ -23,7 +23,8 @@ SHARED_FUNCTION variants_line variants_line_in(STATE real *room, int slots)
 	const variants_line line = {
 		room + VARIANTS_LINE_AT * slots,    room + VARIANTS_LINE_STEP * slots,
 		room + VARIANTS_LINE_PIVOT * slots, room + VARIANTS_LINE_FACTOR * slots,
-		room + VARIANTS_LINE_VALUE * slots, room + VARIANTS_LINE_BEND * slots
+		room + VARIANTS_LINE_VALUE * slots, room + VARIANTS_LINE_BEND * slots,
+		room + VARIANTS_LINE_BELOW * slots, room + VARIANTS_LINE_SCALE * slots
 	};
 	return line;
 }
@@ -83,11 +84,11 @@ SHARED_FUNCTION real variants_cubic(real u, real width, real y0, real y1, real m
 	return FUSED(v, y0, FUSED(u, y1, -(width * width) * bends));
 }
 
-/* Second derivatives of the spline through line.value that is not-a-knot at both ends (a straight line
- * through two points, a parabola through three); one point has none. */
+/* Eliminates the rows of a spline that is not-a-knot at both ends (a straight line through two points, a
+ * parabola through three). */
 SHARED_FUNCTION void variants_not_a_knot(variants_line line, int slots, real first, real last)
 {
-	real before = ZERO, inverse = ZERO, above = ZERO, right = ZERO, chord = ZERO;
+	real before = ZERO, inverse = ZERO, above = ZERO;
 	ROLLED
 	for (int i = 0; i < slots; i++) {
 		const mask runs = (NUMBER(i) >= first) & (NUMBER(i) < last);
@@ -95,7 +96,6 @@ SHARED_FUNCTION void variants_not_a_knot(variants_line line, int slots, real fir
 		const mask begins = NUMBER(i) == first + ONE, ends = NUMBER(i) == last - ONE;
 		const int j = i + 1 < slots ? i + 1 : i;
 		const real width = CHOOSE(runs, line.at[j] - line.at[i], ZERO);
-		const real next = CHOOSE(runs, (line.value[j] - line.value[i]) / width, ZERO);
 		const real both = before + width;
 		/* of the second point, of the last but one, of the only one between */
 		const real inside = CHOOSE(begins, width, before);
@@ -104,18 +104,32 @@ SHARED_FUNCTION void variants_not_a_knot(variants_line line, int slots, real fir
 		                             CHOOSE(one_end, both + inside, NUMBER(2) * both));
 		const real below = CHOOSE(begins, ZERO, CHOOSE(ends, before - width, before));
 		const real factor = below * inverse;
-		right = FUSED(-factor, right,
-		              NUMBER(6) * (next - chord) * CHOOSE(one_end, inside / both, ONE));
 		inverse = CHOOSE(inner, ONE / FUSED(-factor, above, diagonal), ZERO);
 		above = CHOOSE(ends, ZERO, CHOOSE(begins, width - before, width));
-		line.step[i] = CHOOSE(runs, width, ZERO);
+		line.step[i] = width;
 		line.pivot[i] = inverse;
 		line.factor[i] = above;
-		line.bend[i] = right;
+		line.below[i] = factor;
+		line.scale[i] = CHOOSE(one_end, inside / both, ONE);
 		before = width;
+	}
+}
+
+/* Second derivatives of that spline through line.value, with rows that stand eliminated; one point has none.
+ * Chords take the place of the values. */
+SHARED_FUNCTION void variants_not_a_knot_bend(variants_line line, int slots, real first, real last)
+{
+	real right = ZERO, chord = ZERO, after = ZERO;
+	ROLLED
+	for (int i = 0; i < slots; i++) {
+		const mask runs = (NUMBER(i) >= first) & (NUMBER(i) < last);
+		const int j = i + 1 < slots ? i + 1 : i;
+		const real next = CHOOSE(runs, (line.value[j] - line.value[i]) / line.step[i], ZERO);
+		right = FUSED(-line.below[i], right, NUMBER(6) * (next - chord) * line.scale[i]);
+		line.bend[i] = right;
+		line.value[i] = next;
 		chord = next;
 	}
-	real after = ZERO;
 	ROLLED
 	for (int i = slots - 1; i >= 0; i--) {
 		const mask inner = (NUMBER(i) > first) & (NUMBER(i) < last);
@@ -123,21 +137,25 @@ SHARED_FUNCTION void variants_not_a_knot(variants_line line, int slots, real fir
 		line.bend[i] = after;
 	}
 	/* the ends go on as the cubics next to them */
-	const mask three = last - first > NUMBER(2);
+	const mask two = last - first > ONE, three = last - first > NUMBER(2);
 	ROLLED
 	for (int i = 0; i + 2 < slots; i++) {
+		const mask here = (NUMBER(i) == first) & two;
+		if (!ANY(here))
+			continue;
 		const real turn = CHOOSE(
 			three, (line.bend[i + 2] - line.bend[i + 1]) * line.step[i] / line.step[i + 1], ZERO);
-		line.bend[i] = CHOOSE((NUMBER(i) == first) & (last - first > ONE), line.bend[i + 1] - turn,
-		                      line.bend[i]);
+		line.bend[i] = CHOOSE(here, line.bend[i + 1] - turn, line.bend[i]);
 	}
 	ROLLED
 	for (int i = slots - 1; i >= 2; i--) {
+		const mask here = (NUMBER(i) == last) & two;
+		if (!ANY(here))
+			continue;
 		const real turn = CHOOSE(
 			three, (line.bend[i - 1] - line.bend[i - 2]) * line.step[i - 1] / line.step[i - 2],
 			ZERO);
-		line.bend[i] = CHOOSE((NUMBER(i) == last) & (last - first > ONE), line.bend[i - 1] + turn,
-		                      line.bend[i]);
+		line.bend[i] = CHOOSE(here, line.bend[i - 1] + turn, line.bend[i]);
 	}
 }
 
@@ -149,11 +167,10 @@ SHARED_FUNCTION real variants_slope_at(variants_line line, int i, real first, re
 	/* the last point belongs to the interval before it */
 	const mask at_end = NUMBER(i) == last;
 	const real width = CHOOSE(at_end, line.step[j], line.step[i]);
-	const real chord = CHOOSE(at_end, line.value[i] - line.value[j],
-	                          line.value[i + 1] - line.value[i]);
+	const real chord = CHOOSE(at_end, line.value[j], line.value[i]);
 	const real bends = CHOOSE(at_end, FUSED(NUMBER(2), line.bend[i], line.bend[j]),
 	                          -FUSED(NUMBER(2), line.bend[i], line.bend[i + 1]));
-	return CHOOSE(last > first, FUSED(width * sixth, bends, chord / width), ZERO);
+	return CHOOSE(last > first, FUSED(width * sixth, bends, chord), ZERO);
 }
 
 #endif

@@ -132,7 +132,8 @@ enum {
 	VARIANTS_PART_COUNT
 };
 
-/* Rows of room for one line: places, inverse widths, pivots, factors, values, second derivatives. */
+/* Rows of room for one line: places, inverse widths, pivots, factors, values, second derivatives; of rows that
+ * are not-a-knot what eliminates the one below and what their right side is scaled by. */
 enum {
 	VARIANTS_LINE_AT,
 	VARIANTS_LINE_STEP,
@@ -140,6 +141,8 @@ enum {
 	VARIANTS_LINE_FACTOR,
 	VARIANTS_LINE_VALUE,
 	VARIANTS_LINE_BEND,
+	VARIANTS_LINE_BELOW,
+	VARIANTS_LINE_SCALE,
 	VARIANTS_LINE_ROWS
 };
 

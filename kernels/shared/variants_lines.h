@@ -198,17 +198,33 @@ SHARED_FUNCTION void variants_find_ends(const variants_state *s, int w)
 	s->bad[w] = CHOOSE(run.irregular, ONE, s->bad[w]);
 }
 
-/* Slopes y_x at the nodes of a waterline, NONE where there are none, by its not-a-knot spline. */
-SHARED_FUNCTION void variants_find_slopes(const variants_state *s, int w)
+/* The rows of a spline that stand in the room of a work-item: of the stations from first to last. */
+typedef struct variants_knots {
+	int stand;
+	real first, last;
+} variants_knots;
+
+/* Slopes y_x at the nodes of a waterline, NONE where there are none, by its not-a-knot spline. The rows are
+ * those of the waterline before where the same points stand in them. */
+SHARED_FUNCTION void variants_find_slopes(const variants_state *s, int w, variants_knots *knots)
 {
 	const variants_run run = variants_run_of(s, w);
 	const variants_line line = variants_room(s);
 	ROLLED
-	for (int i = 0; i < s->slots; i++) {
-		line.at[i] = variants_slot_x(s, w, i, run);
+	for (int i = 0; i < s->slots; i++)
 		line.value[i] = variants_slot_y(s, w, i, run);
+	if (!knots->stand || run.ended ||
+	    ANY((run.first != knots->first) | (run.last != knots->last))) {
+		ROLLED
+		for (int i = 0; i < s->slots; i++)
+			line.at[i] = variants_slot_x(s, w, i, run);
+		variants_not_a_knot(line, s->slots, run.first, run.last);
+		/* ends off the table lie elsewhere on each waterline */
+		knots->stand = !run.ended;
+		knots->first = run.first;
+		knots->last = run.last;
 	}
-	variants_not_a_knot(line, s->slots, run.first, run.last);
+	variants_not_a_knot_bend(line, s->slots, run.first, run.last);
 	ROLLED
 	for (int i = 1; i + 1 < s->slots; i++) {
 		const mask there = (NUMBER(i) >= run.first) & (NUMBER(i) <= run.last) &
