@@ -74,12 +74,22 @@ check()
 	[ "$("$folder/user-build-$1/user")" = "$version" ] || fail "$1: user by find_package"
 }
 
-# The build at hand with its modules, then the other kind of library without.
+# The commands of a build, wherever it is, by which of its objects are made.
+commands()
+{
+	sed -n "s|$1|BUILD|g; s|^ *\"command\": ||p" "$1/compile_commands.json" | sort
+}
+
+# The build at hand with its modules, then the other kind of library without. To compile everything again
+# would take longer than any other test of the house, so what the same command makes is not made twice.
 "$cmake" --install "$build" --prefix "$folder/static" >/dev/null
 check static
+type=$(sed -n 's/^CMAKE_BUILD_TYPE:[A-Z]*=//p' "$build/CMakeCache.txt")
 "$cmake" -S "$repository" -B "$folder/shared-build" -G "$generator" -DCMAKE_C_COMPILER="$compiler" \
-	-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-O0 -w" -DBUILD_SHARED_LIBS=ON -DBATTEN_REPORT=OFF \
-	-DBATTEN_OPENCASCADE=OFF >/dev/null
-"$cmake" --build "$folder/shared-build" >/dev/null
+	-DCMAKE_C_COMPILER_LAUNCHER="sh;$repository/tests/house/reuse.sh;$build;$folder/same" \
+	-DCMAKE_BUILD_TYPE="$type" -DBUILD_SHARED_LIBS=ON -DBATTEN_REPORT=OFF -DBATTEN_OPENCASCADE=OFF >/dev/null
+commands "$build" >"$folder/commands"
+commands "$folder/shared-build" | comm -12 "$folder/commands" - | sed -n 's/.* -o \([^ ]*\) -c .*/\1/p' >"$folder/same"
+"$cmake" --build "$folder/shared-build" >"$folder/log" || fail "$(cat "$folder/log")"
 "$cmake" --install "$folder/shared-build" --prefix "$folder/shared" >/dev/null
 check shared
