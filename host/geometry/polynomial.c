@@ -10,7 +10,7 @@ struct taylor {
 	double c[POLYNOMIAL_DERIVATIVES];
 };
 
-/* What runs from one basis function to the next. */
+/* What runs from one basis function to the next: this one, and Chebyshev's before. */
 struct walk {
 	struct taylor here, before;
 };
@@ -22,12 +22,11 @@ static double scaled(const struct polynomial *polynomial, double t)
 }
 
 /* Times (value + epsilon). */
-static struct taylor times_linear(struct taylor a, double value)
+static void multiply_linear(struct taylor *a, double value)
 {
-	struct taylor product = { { value * a.c[0] } };
-	for (size_t d = 1; d < POLYNOMIAL_DERIVATIVES; d++)
-		product.c[d] = value * a.c[d] + a.c[d - 1];
-	return product;
+	for (size_t d = POLYNOMIAL_DERIVATIVES; d-- > 1;)
+		a->c[d] = value * a->c[d] + a->c[d - 1];
+	a->c[0] *= value;
 }
 
 /* ------------------------------------------------------------------------------------------------
@@ -35,39 +34,38 @@ static struct taylor times_linear(struct taylor a, double value)
  * --------------------------------------------------------------------------------------------- */
 
 /* Lagrange's product over all points but one (thesis 3.1.1.2). */
-static struct taylor lagrange(const struct polynomial *polynomial, size_t j, double u)
+static void lagrange(const struct polynomial *polynomial, size_t j, double u,
+                     struct taylor *product)
 {
-	struct taylor product = { { polynomial->factors[j] } };
+	*product = (struct taylor){ { polynomial->factors[j] } };
 	for (size_t k = 0; k < polynomial->count; k++)
 		if (k != j)
-			product = times_linear(product, u - polynomial->places[k]);
-	return product;
+			multiply_linear(product, u - polynomial->places[k]);
 }
 
 /* T_j = 2 u T_{j-1} - T_{j-2}. */
-static struct taylor chebyshev(const struct walk *walk, size_t j, double u)
+static void chebyshev(struct walk *walk, size_t j, double u)
 {
-	struct taylor next = times_linear(walk->here, u);
+	const struct taylor here = walk->here;
+	multiply_linear(&walk->here, u);
 	for (size_t d = 0; j > 1 && d < POLYNOMIAL_DERIVATIVES; d++)
-		next.c[d] = 2 * next.c[d] - walk->before.c[d];
-	return next;
+		walk->here.c[d] = 2 * walk->here.c[d] - walk->before.c[d];
+	walk->before = here;
 }
 
-/* Basis function j, called for j = 0, 1, 2 ... in turn. */
-static struct taylor step(const struct polynomial *polynomial, size_t j, double u,
-                          struct walk *walk)
+/* walk->here becomes basis function j; called for j = 0, 1, 2 ... in turn. */
+static void step(const struct polynomial *polynomial, size_t j, double u, struct walk *walk)
 {
-	struct taylor next = { { 1 } };
 	if (polynomial->basis == POLYNOMIAL_LAGRANGE)
-		return lagrange(polynomial, j, u);
-	if (j > 0 && polynomial->basis == POLYNOMIAL_MONOMIAL)
-		next = times_linear(walk->here, u);
-	else if (j > 0 && polynomial->basis == POLYNOMIAL_NEWTON)
-		next = times_linear(walk->here, u - polynomial->places[j - 1]);
-	else if (j > 0)
-		next = chebyshev(walk, j, u);
-	*walk = (struct walk){ next, walk->here };
-	return next;
+		lagrange(polynomial, j, u, &walk->here);
+	else if (j == 0)
+		walk->here = (struct taylor){ { 1 } };
+	else if (polynomial->basis == POLYNOMIAL_MONOMIAL)
+		multiply_linear(&walk->here, u);
+	else if (polynomial->basis == POLYNOMIAL_NEWTON)
+		multiply_linear(&walk->here, u - polynomial->places[j - 1]);
+	else
+		chebyshev(walk, j, u);
 }
 
 void polynomial_evaluate(const struct polynomial *polynomial, double t,
@@ -78,10 +76,10 @@ void polynomial_evaluate(const struct polynomial *polynomial, double t,
 	struct walk walk = { { { 0 } }, { { 0 } } };
 	memset(out, 0, POLYNOMIAL_DERIVATIVES * sizeof *out);
 	for (size_t j = 0; j < polynomial->count; j++) {
-		struct taylor basis = step(polynomial, j, u, &walk);
+		step(polynomial, j, u, &walk);
 		for (size_t d = 0; d < POLYNOMIAL_DERIVATIVES; d++)
 			for (size_t c = 0; c < polynomial->width; c++)
-				out[d][c] += basis.c[d] * polynomial->coefficients[j * polynomial->width + c];
+				out[d][c] += walk.here.c[d] * polynomial->coefficients[j * polynomial->width + c];
 	}
 	double factor = 1;
 	for (size_t d = 1; d < POLYNOMIAL_DERIVATIVES; d++) {
@@ -132,8 +130,10 @@ static batten_status solve_conditions(struct polynomial *polynomial, size_t poin
 		double row[POLYNOMIAL_POINTS_MOST];
 		struct walk walk = { { { 0 } }, { { 0 } } };
 		double u = scaled(polynomial, parameters[i]);
-		for (size_t j = 0; j < polynomial->count; j++)
-			row[j] = step(polynomial, j, u, &walk).c[0];
+		for (size_t j = 0; j < polynomial->count; j++) {
+			step(polynomial, j, u, &walk);
+			row[j] = walk.here.c[0];
+		}
 		least_squares_add(&system, 0, polynomial->count, row, values + i * polynomial->width);
 	}
 	if (!least_squares_solve(&system, polynomial->coefficients))
