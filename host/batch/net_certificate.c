@@ -3,6 +3,7 @@
 #include "batch/net_pack.h"
 #include "batch/net_terms.h"
 #include "batch/newton.h"
+#include "core/band.h"
 
 #include <float.h>
 #include <math.h>
@@ -104,16 +105,13 @@ static double differentiate(net_certifier *c, double *fairness)
 static size_t number_unknowns(net_certifier *c, double *last)
 {
 	const net_plan *plan = &c->plan;
-	const size_t columns = plan->u.poles;
-	const size_t rows = plan->v.poles;
-	const size_t poles = columns * rows;
+	const size_t poles = net_plan_poles(plan);
 	size_t count = 0;
 	for (size_t n = 0; n < poles; n++)
 		if (plan->leader[n] != n)
 			c->gradient[plan->leader[n]] += c->gradient[n];
 	for (size_t o = 0; o < poles; o++) {
-		/* The shorter direction runs first, for a narrow band. */
-		const size_t n = columns < rows ? o : o % rows * columns + o / rows;
+		const size_t n = net_plan_in_turn(plan, o);
 		const double start = net_start_of(c->item, n);
 		const double gone = c->item->target_y_m[n] + c->way[n] - start;
 		const double near = c->rounding * (fabs(start) + fabs(gone) + fabs(c->item->target_y_m[n]));
@@ -182,6 +180,12 @@ static double unweighed(const net_certifier *c, double fairness)
 	return c->item->w1 > 0.0 ? fairness / (c->item->w1 * scale) : NAN;
 }
 
+static void stand(net_certifier *c, const double *y_m)
+{
+	for (size_t n = 0; n < net_plan_poles(&c->plan); n++)
+		c->way[n] = y_m[n] - c->item->target_y_m[n];
+}
+
 static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	net_certifier *c = (net_certifier *)of;
@@ -189,8 +193,7 @@ static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 	double fairness = 0.0;
 	double last = 0.0;
 	*out = (batten_certificate){ .gap_estimate = NAN };
-	for (size_t n = 0; n < poles; n++)
-		c->way[n] = y_m[n] - c->item->target_y_m[n];
+	stand(c, y_m);
 	out->objective = differentiate(c, &fairness);
 	out->fairness = unweighed(c, fairness);
 	const size_t count = number_unknowns(c, &last);
@@ -205,6 +208,29 @@ static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 		                           .assemble = assemble,
 		                           .of = c };
 	return newton_judge(&system, out);
+}
+
+batten_status net_certifier_answer(net_certifier *c, size_t which, const double *y_m, size_t count,
+                                   const double *slopes, double *ways, bool *known)
+{
+	const size_t poles = net_plan_poles(&c->plan);
+	double fairness = 0.0;
+	double last = 0.0;
+	begin(c, which);
+	stand(c, y_m);
+	differentiate(c, &fairness);
+	const size_t unknowns = number_unknowns(c, &last);
+	const size_t width = band_width(c);
+	double *band = batten_allocate(c->plan.context, unknowns, (width + 1) * sizeof *band);
+	if (!band)
+		return BATTEN_MEMORY;
+	assemble(c, width, band);
+	*known = band_factor(unknowns, width, band) == unknowns;
+	const newton_factor factored = { poles, unknowns, width, c->number, band, c->step };
+	for (size_t i = 0; i < count && *known; i++)
+		newton_answer(&factored, slopes + i * poles, ways + i * poles);
+	batten_release(c->plan.context, band);
+	return BATTEN_OK;
 }
 
 static double go(void *of, const double *from, double part, double *y_m)

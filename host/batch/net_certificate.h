@@ -32,6 +32,12 @@ batten_status net_certifier_run(net_certifier *c, size_t which, const double *y_
 batten_status net_certifier_polish(net_certifier *c, size_t which, double gap, double *y_m,
                                    batten_certificate *out);
 
+/* How the free poles about an end of a sound item answer to slopes, [count][v][u] each: the inverse of the
+ * Hessian times these. Slopes of poles that move together add up; what is held, also by the gradient, does not
+ * answer. *known false, and nothing written: it is not positive definite. Errors: MEMORY. */
+batten_status net_certifier_answer(net_certifier *c, size_t which, const double *y_m, size_t count,
+                                   const double *slopes, double *ways, bool *known);
+
 /* Judges the ends y_m [count][v][u] of the plan's items, on the threads of the C path; those with a fault
  * get its text. polished_m: NULL, or y_m, which then goes on until the gap estimate is at most `gap`.
  * Errors: MEMORY. */

@@ -7,6 +7,13 @@ size_t net_plan_poles(const net_plan *plan)
 	return plan->u.poles * plan->v.poles;
 }
 
+size_t net_plan_in_turn(const net_plan *plan, size_t o)
+{
+	const size_t columns = plan->u.poles;
+	const size_t rows = plan->v.poles;
+	return columns < rows ? o : o % rows * columns + o / rows;
+}
+
 size_t net_plan_sample_size(const net_plan *plan)
 {
 	return plan->fairness == NET_FAIRNESS_VARIATION ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE;

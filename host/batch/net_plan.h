@@ -69,6 +69,9 @@ uint64_t net_directions_moving(const net_plan *plan, const net_room *rooms);
 /* The start of a pole, moved into its box. */
 double net_start_of(const net_item *item, size_t pole);
 
+/* The o-th pole where the shorter direction runs first, for a narrow band. */
+size_t net_plan_in_turn(const net_plan *plan, size_t o);
+
 /* Poles of the net; numbers of a sample. */
 size_t net_plan_poles(const net_plan *plan);
 size_t net_plan_sample_size(const net_plan *plan);

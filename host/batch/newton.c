@@ -71,6 +71,19 @@ void newton_add_term(const newton_term *term, const size_t *number, size_t width
 	}
 }
 
+void newton_answer(const newton_factor *factor, const double *slopes, double *ways)
+{
+	const size_t *number = factor->number;
+	for (size_t u = 0; u < factor->count; u++)
+		factor->right[u] = 0.0;
+	for (size_t n = 0; n < factor->places; n++)
+		if (number[n] != NEWTON_HELD)
+			factor->right[number[n]] += slopes[n];
+	band_solve(factor->count, factor->width, factor->band, factor->right);
+	for (size_t n = 0; n < factor->places; n++)
+		ways[n] = number[n] == NEWTON_HELD ? 0.0 : factor->right[number[n]];
+}
+
 /* 1/2 g^T H^-1 g; NaN where H is not positive definite. */
 static double decrement(size_t count, size_t width, double *band, const double *gradient,
                         double *step)

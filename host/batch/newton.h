@@ -24,6 +24,16 @@ size_t newton_reach(size_t count, const size_t *places, const size_t *number);
 /* What each pair of the term's places has of the Hessian, into the band (core/band.h). */
 void newton_add_term(const newton_term *term, const size_t *number, size_t width, double *band);
 
+/* Solves a factored band for slopes at the places, those of places that go together added up: the ways they
+ * go, 0 where held. right: room for an unknown each. */
+typedef struct newton_factor {
+	size_t places, count, width;
+	const size_t *number;
+	const double *band;
+	double *right;
+} newton_factor;
+void newton_answer(const newton_factor *factor, const double *slopes, double *ways);
+
 /* The objective about an end, place by place. */
 typedef struct newton_system {
 	batten_context *context;

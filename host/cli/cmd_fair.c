@@ -306,7 +306,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		  "of a net also row:K,column:K,pole:COLUMN@ROW,edge:NAME" },
 		{ "keep", CLI_TEXT, &request->keep, "LIST",
 		  "volume_m3=0.1%,lcb_pct_lbp_fwd=0.05: keep these measures of the smoothed hull, at its draft, "
-		  "so close (searches in f64), of --front at every point" },
+		  "so close (searches in f64), of --front at every point; of a net, those of its fitted surface" },
 		{ "interior-penalty", CLI_FLAG, &request->interior_penalty, NULL,
 		  "keep bounds by r sum 1/g, r falling (thesis 7.1), not by moves that end at them: --search "
 		  "multilevel, three to six times the work" },

@@ -68,9 +68,10 @@ batten_status fair_net_options_read(const fair_request *request, batten_fair_opt
 		return cli_usage(
 			"fair", "--longitudinal and --transverse are about offsets: --variables offsets was "
 					"expected with them");
-	if (request->keep || request->interior_penalty)
-		return cli_usage("fair", "--%s is about offsets: --variables offsets was expected with it",
-		                 request->keep ? "keep" : "interior-penalty");
+	if (request->interior_penalty)
+		return cli_usage(
+			"fair",
+			"--interior-penalty is about offsets: --variables offsets was expected with it");
 	if (request->lower_path || request->upper_path)
 		return cli_usage("fair",
 		                 "--%s bounds the offsets of a table, not the poles of a net: --variables "

@@ -1,10 +1,12 @@
 /* Fairing by the control net of a surface fitted to the offsets (thesis 3.2.3.2 and 7, Letcher
  * 4.9). */
+#include "fairing/conclude.h"
 #include "fairing/discrepancy.h"
 #include "fairing/fairing.h"
 #include "fairing/net_box.h"
 #include "fairing/net_fit.h"
 #include "fairing/net_places.h"
+#include "fairing/net_space.h"
 
 #include <math.h>
 
@@ -165,29 +167,6 @@ static batten_status measure(struct work *work)
 	return status;
 }
 
-/* Of the search that is taken: its certificate, polished where that is asked for. */
-static batten_status conclude(struct work *work, const batten_net_problem *problem,
-                              const batten_net_options *how, double *y,
-                              batten_search_result *result)
-{
-	batten_fairing *fairing = work->fairing;
-	batten_certificate *certificate = &fairing->certificate;
-	const double gap = work->options->polish_gap;
-	const batten_status status = gap > 0.0 ? batten_net_polish_batch(fairing->context, 1, problem,
-	                                                                 how, gap, y, certificate)
-	                                       : batten_net_certify_batch(fairing->context, 1, problem,
-	                                                                  how, y, certificate);
-	if (status != BATTEN_OK)
-		return status;
-	fairing->certified = true;
-	if (certificate->steps > 0) {
-		result->objective_end = certificate->objective;
-		if (certificate->gap_estimate <= gap)
-			result->end = BATTEN_SEARCH_CONVERGED;
-	}
-	return BATTEN_OK;
-}
-
 static batten_status search(struct work *work)
 {
 	batten_fairing *fairing = work->fairing;
@@ -223,7 +202,13 @@ static batten_status search(struct work *work)
 			                   fairing->smoothed->name, results[i].message);
 	const size_t chosen = choose(work, count);
 	double *y = work->y + chosen * s->count_u * s->count_v;
-	const batten_status concluded = conclude(work, &problems[chosen], &how, y, &results[chosen]);
+	net_space one = { .fairing = fairing, .box = &work->box, .how = &how };
+	one.problem = problems[chosen];
+	fairing_space space;
+	batten_status concluded = net_space_open(&one, &space);
+	if (concluded == BATTEN_OK)
+		concluded = fairing_conclude(fairing, options, &space, y, &results[chosen]);
+	net_space_close(&one);
 	if (concluded != BATTEN_OK)
 		return concluded;
 	set_y(fairing->faired_surface, y);

@@ -3,6 +3,7 @@
 #include "fairing/conclude.h"
 #include "fairing/discrepancy.h"
 #include "fairing/fairing.h"
+#include "fairing/offset_space.h"
 
 #include <math.h>
 
@@ -69,9 +70,13 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	                                           results, &fairing->run);
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
-		const batten_status concluded = fairing_conclude(fairing, options, box, &chosen_search,
-		                                                 problems[chosen], y + chosen * nodes,
-		                                                 &results[chosen]);
+		offset_space one = { fairing, box, &chosen_search, problems[chosen], NULL };
+		fairing_space space;
+		batten_status concluded = offset_space_open(&one, &space);
+		if (concluded == BATTEN_OK)
+			concluded = fairing_conclude(fairing, options, &space, y + chosen * nodes,
+			                             &results[chosen]);
+		offset_space_close(&one);
 		if (concluded != BATTEN_OK)
 			status = concluded;
 		fairing->result = results[chosen];

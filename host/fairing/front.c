@@ -2,6 +2,7 @@
 #include "fairing/box.h"
 #include "fairing/conclude.h"
 #include "fairing/fairing.h"
+#include "fairing/offset_space.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,11 +76,15 @@ static batten_status keep(batten_fairing *fairing, const batten_fair_options *op
                           const fairing_box *box, const batten_search_options *search, size_t count,
                           sweep *s, batten_front_point *points)
 {
-	const size_t nodes = hull_node_count(fairing->smoothed);
 	batten_status status = BATTEN_OK;
 	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
-		status = fairing_conclude(fairing, options, box, search, s->problems[p], s->y_m + p * nodes,
-		                          &s->results[p]);
+		offset_space one = { fairing, box, search, s->problems[p], NULL };
+		fairing_space space;
+		status = offset_space_open(&one, &space);
+		if (status == BATTEN_OK)
+			status = fairing_conclude(fairing, options, &space, s->y_m + p * space.count,
+			                          &s->results[p]);
+		offset_space_close(&one);
 		s->certificates[p] = fairing->certificate;
 		memcpy(points[p].kept, fairing->kept, sizeof points[p].kept);
 	}

@@ -1,38 +1,43 @@
 /* Volume, areas, centres, coefficients kept (thesis 7.1: constraints). A multiplier of a measure adds to
- * the objective what is linear in the half-breadths, as far as the measure is; closeness to a target that
- * is shifted adds the same. So the searches stay as they are, on every device: multipliers are found by
+ * the objective what is linear in half-breadths or poles, as far as the measure is; closeness to a target
+ * that is shifted adds the same. So the searches stay as they are, on every device: multipliers are found by
  * Newton's method over whole searches, each from where the last one ended. */
 #include "fairing/kept.h"
 
 #include "fairing/kept_state.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Hulls measured in one batch; searches of each way to the multipliers, before these count as not found. */
+/* Hulls or surfaces measured in one batch; searches of each way to the multipliers, before these count as not found. */
 enum { MEASURED_AT_ONCE = 64, ROUND_LIMIT = 40 };
 /* Part of the half-beam that a half-breadth is moved by to see what a measure does. */
 #define NUDGE 1e-4
 /* So many tolerances from where it is to be, a measure tells no step that goes too far from the unevenness
  * of the searches' ends. */
 #define NEAR 30.0
-/* An offset that f32 left rounding from a bound. */
+/* A step of the multipliers is too long where the rise at its end is a fall by more than this part of that at its
+ * beginning. */
+#define OVERSHOT 0.5
+/* What is left of one, at the least. */
+#define SHORTEST 0.1
+/* A variable that f32 left rounding from a bound. */
 #define ROUNDING 0x1p-22
-/* No target goes further from its hull than so many half-beams. */
+/* No target goes further from the centreplane than so many half-beams. */
 #define FARTHEST 1e6
 
 /* Measures are counted in tolerances from what they are to be: within -1 .. 1. */
 typedef struct task {
 	batten_fairing *fairing;
 	const batten_fair_options *options;
-	const fairing_box *box;
-	batten_hull *hull; /* scratch */
-	size_t nodes;
-	double *y, *moved; /* where the search is; MEASURED_AT_ONCE hulls beside it */
+	const fairing_space *space;
+	double *y, *moved; /* where the search is; MEASURED_AT_ONCE of these beside it */
 	batten_hydrostatics *found;
-	double *slopes; /* [count][nodes]: tolerances a metre */
-	double *gives;  /* [nodes]: how far closeness alone lets a half-breadth go, a unit of slope */
+	double *slopes;  /* [count][variables]: tolerances a metre */
+	double *ways;    /* [count][variables]: how far closeness alone lets them go for these */
+	double *answers; /* [count][variables]: how far the objective lets them, about an end */
 	kept_state at;
 } task;
 
@@ -56,9 +61,8 @@ batten_status fairing_end_check(batten_context *context, const batten_fair_optio
 	if (options->keep_count > BATTEN_KEEP_LIMIT)
 		return batten_fail(context, BATTEN_USAGE, "%zu measures to keep, at most %d are expected",
 		                   options->keep_count, BATTEN_KEEP_LIMIT);
-	if (options->variables != BATTEN_VARIABLES_OFFSETS || options->method != BATTEN_METHOD_SEARCH)
-		return batten_fail(context, BATTEN_USAGE,
-		                   "measures are kept by the search over offsets only");
+	if (options->method != BATTEN_METHOD_SEARCH)
+		return batten_fail(context, BATTEN_USAGE, "measures are kept by searches only");
 	if (options->weights_given && options->w2 == 0.0)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "measures are kept by way of closeness: w2 above 0 is expected");
@@ -86,31 +90,11 @@ static double quantity_of(const batten_hydrostatics *found, size_t quantity)
 	return values[quantity];
 }
 
-/* y as it is measured: with its '?' filled. */
-static batten_status fill(task *t, const double *y, double *filled)
-{
-	size_t count = 0;
-	memcpy(t->hull->y_m, y, t->nodes * sizeof *y);
-	const batten_status status = hull_fill_unknown(t->hull, &count);
-	memcpy(filled, t->hull->y_m, t->nodes * sizeof *y);
-	return status;
-}
-
-/* The first `count` hulls of moved into found. The C path, whatever searches: the same on all. */
-static batten_status measure_moved(task *t, size_t count)
-{
-	batten_batch_options batch;
-	batten_batch_options_default(&batch);
-	batch.device = BATTEN_DEVICE_REFERENCE;
-	return batten_hull_hydrostatics_batch(t->fairing->context, t->hull, NULL, &batch, count,
-	                                      t->moved, NULL, 1, &t->hull->draft_m, t->found, NULL);
-}
-
 static batten_status measure(task *t, const double *y, double *values)
 {
-	batten_status status = fill(t, y, t->moved);
-	if (status == BATTEN_OK)
-		status = measure_moved(t, 1);
+	const fairing_space *space = t->space;
+	memcpy(t->moved, y, space->count * sizeof *y);
+	const batten_status status = space->measure(space->of, 1, t->moved, t->found);
 	for (size_t i = 0; i < t->at.count && status == BATTEN_OK; i++)
 		values[i] = quantity_of(&t->found[0], t->options->keep[i].quantity);
 	return status;
@@ -133,12 +117,12 @@ static batten_status measure_here(task *t)
 	return status;
 }
 
-/* What is kept: the measures of the smoothed hull. */
+/* What is kept: the measures of the start. */
 static batten_status want(task *t)
 {
 	batten_fairing *fairing = t->fairing;
 	double values[BATTEN_KEEP_LIMIT];
-	const batten_status status = measure(t, fairing->smoothed->y_m, values);
+	const batten_status status = measure(t, t->space->start_m, values);
 	fairing->kept_count = t->at.count;
 	for (size_t i = 0; i < t->at.count && status == BATTEN_OK; i++) {
 		const batten_keep *keep = &t->options->keep[i];
@@ -155,61 +139,53 @@ static batten_status want(task *t)
 	return status;
 }
 
-/* Slopes along the variables first to first + count of `which`. */
+/* Slopes along `count` variables. */
 static batten_status find_some_slopes(task *t, const size_t *which, size_t count, double nudge)
 {
-	batten_status status = BATTEN_OK;
-	for (size_t v = 0; v < count && status == BATTEN_OK; v++) {
-		const double old = t->y[which[v]];
-		t->y[which[v]] = old + nudge;
-		status = fill(t, t->y, t->moved + v * t->nodes);
-		t->y[which[v]] = old;
+	const fairing_space *space = t->space;
+	for (size_t v = 0; v < count; v++) {
+		double *moved = t->moved + v * space->count;
+		memcpy(moved, t->y, space->count * sizeof *moved);
+		space->move(space->of, moved, which[v], nudge);
 	}
-	if (status == BATTEN_OK)
-		status = measure_moved(t, count);
+	const batten_status status = space->measure(space->of, count, t->moved, t->found);
 	for (size_t v = 0; v < count && status == BATTEN_OK; v++)
 		for (size_t i = 0; i < t->at.count; i++) {
 			const double value = in_tolerances(
 				t, i, quantity_of(&t->found[v], t->options->keep[i].quantity));
-			t->slopes[i * t->nodes + which[v]] = (value - t->at.value[i]) / nudge;
+			t->slopes[i * space->count + which[v]] = (value - t->at.value[i]) / nudge;
 		}
 	return status;
 }
 
 static batten_status find_slopes(task *t)
 {
+	const fairing_space *space = t->space;
 	const double nudge = NUDGE * batten_hull_half_beam_m(t->fairing->smoothed);
 	size_t which[MEASURED_AT_ONCE], count = 0;
 	batten_status status = BATTEN_OK;
-	for (size_t n = 0; n < t->nodes && status == BATTEN_OK; n++) {
-		if (t->box->lower_m[n] < t->box->upper_m[n])
+	for (size_t n = 0; n < space->count && status == BATTEN_OK; n++) {
+		if (space->lower_m[n] < space->upper_m[n])
 			which[count++] = n;
-		if (count == MEASURED_AT_ONCE || (count > 0 && n + 1 == t->nodes)) {
+		if (count == MEASURED_AT_ONCE || (count > 0 && n + 1 == space->count)) {
 			status = find_some_slopes(t, which, count, nudge);
 			count = 0;
 		}
 	}
-	return status;
+	return status == BATTEN_OK ? space->yield(space->of, t->at.count, t->slopes, t->ways) : status;
 }
 
-static double half_sum(const double *x, size_t i, size_t count)
+/* The response of the measures to their multipliers where variables answer like this. */
+static void respond_by(task *t, const double *ways)
 {
-	return ((i + 1 < count ? x[i + 1] : x[i]) - (i > 0 ? x[i - 1] : x[i])) / 2.0;
-}
-
-/* Of w2 closeness / h^4, 1 / (second derivative) at each variable; 0 where closeness has no say. */
-static void find_gives(task *t, const batten_search_problem *problem)
-{
-	const batten_hull *hull = t->hull;
-	const double h2 = problem->half_beam_m * problem->half_beam_m;
-	for (size_t k = 0; k < hull->waterline_count; k++)
-		for (size_t i = 0; i < hull->station_count; i++) {
-			const size_t n = k * hull->station_count + i;
-			const double cell = half_sum(hull->x_m, i, hull->station_count) *
-			                    half_sum(hull->z_m, k, hull->waterline_count);
-			const double close = problem->w2 * t->box->closeness_weight[n] * cell / (h2 * h2);
-			const bool varies = t->box->lower_m[n] < t->box->upper_m[n] && close > 0.0;
-			t->gives[n] = varies ? 0.5 / close : 0.0;
+	const fairing_space *space = t->space;
+	for (size_t i = 0; i < t->at.count; i++)
+		for (size_t j = 0; j < t->at.count; j++) {
+			double sum = 0.0;
+			for (size_t n = 0; n < space->count; n++)
+				if (space->lower_m[n] < space->upper_m[n])
+					sum += t->slopes[i * space->count + n] * ways[j * space->count + n];
+			t->at.response.a[i][j] = sum;
 		}
 }
 
@@ -217,24 +193,19 @@ static void find_gives(task *t, const batten_search_problem *problem)
  * guess. */
 static void guess_response(task *t)
 {
-	for (size_t i = 0; i < t->at.count; i++)
-		for (size_t j = 0; j < t->at.count; j++) {
-			double sum = 0.0;
-			for (size_t n = 0; n < t->nodes; n++)
-				sum += t->slopes[i * t->nodes + n] * t->gives[n] * t->slopes[j * t->nodes + n];
-			t->at.response.a[i][j] = sum;
-		}
+	respond_by(t, t->ways);
 }
 
-/* Whether the bounds of the offsets let every measure, by itself, come within its tolerance. */
+/* Whether the bounds let every measure, by itself, come within its tolerance. */
 static batten_status check_reach(const task *t)
 {
+	const fairing_space *space = t->space;
 	for (size_t i = 0; i < t->at.count; i++) {
 		double least = t->at.value[i], most = t->at.value[i];
-		for (size_t n = 0; n < t->nodes; n++) {
-			const double slope = t->slopes[i * t->nodes + n];
-			const double down = slope * (t->box->lower_m[n] - t->y[n]);
-			const double up = slope * (t->box->upper_m[n] - t->y[n]);
+		for (size_t n = 0; n < space->count; n++) {
+			const double slope = t->slopes[i * space->count + n];
+			const double down = slope * (space->lower_m[n] - t->y[n]);
+			const double up = slope * (space->upper_m[n] - t->y[n]);
 			least += fmin(down, up);
 			most += fmax(down, up);
 		}
@@ -242,10 +213,10 @@ static batten_status check_reach(const task *t)
 		if (most < -1.0 || least > 1.0)
 			return batten_fail(
 				t->fairing->context, BATTEN_INPUT,
-				"%s: %s cannot be kept at %.6g within %.3g: the bounds of the offsets allow "
+				"%s: %s cannot be kept at %.6g within %.3g: the bounds of the %s allow "
 				"%.6g to %.6g",
 				t->fairing->smoothed->name, batten_hydrostatics_name(kept->quantity), kept->wanted,
-				kept->tolerance, kept->wanted + least * kept->tolerance,
+				kept->tolerance, space->variables, kept->wanted + least * kept->tolerance,
 				kept->wanted + most * kept->tolerance);
 	}
 	return BATTEN_OK;
@@ -254,13 +225,12 @@ static batten_status check_reach(const task *t)
 /* Where closeness pulls to with these multipliers; false: beyond all measure. */
 static bool aim_at(const task *t, double *target)
 {
-	const double *start = t->fairing->smoothed->y_m;
+	const fairing_space *space = t->space;
 	const double farthest = FARTHEST * batten_hull_half_beam_m(t->fairing->smoothed);
-	for (size_t n = 0; n < t->nodes; n++) {
-		double shift = 0.0;
+	for (size_t n = 0; n < space->count; n++) {
+		target[n] = space->start_m[n];
 		for (size_t i = 0; i < t->at.count; i++)
-			shift += t->at.multiplier[i] * t->slopes[i * t->nodes + n];
-		target[n] = start[n] - t->gives[n] * shift;
+			target[n] -= t->at.multiplier[i] * t->ways[i * space->count + n];
 		if (!(fabs(target[n]) <= farthest))
 			return false;
 	}
@@ -277,109 +247,163 @@ static batten_status fail_to_meet(const task *t)
 			               batten_hydrostatics_name(t->options->keep[i].quantity));
 		}
 	return batten_fail(t->fairing->context, BATTEN_INPUT,
-	                   "%s: these were not met together within the bounds of the offsets, in %u "
+	                   "%s: these were not met together within the bounds of the %s, in %u "
 	                   "searches: %s",
-	                   t->fairing->smoothed->name, t->fairing->kept_rounds, names);
+	                   t->fairing->smoothed->name, t->space->variables, t->fairing->kept_rounds,
+	                   names);
 }
 
-static batten_status search_again(task *t, const batten_search_options *search,
-                                  const batten_search_problem *problem,
-                                  batten_search_result *result)
+static batten_status search_again(task *t, const double *target, batten_search_result *result)
 {
 	batten_fairing *fairing = t->fairing;
-	const batten_grid grid = { t->hull->station_count, t->hull->waterline_count, t->hull->x_m,
-		                       t->hull->z_m };
 	const batten_search_result before = *result;
 	const double seconds = fairing->run.seconds;
-	batten_search_problem from = *problem;
-	from.start_m = t->moved;
-	memcpy(t->moved, t->y, t->nodes * sizeof *t->y);
-	const batten_status status = batten_search_batch(fairing->context, &grid, 1, &from, search,
-	                                                 t->y, result, &fairing->run);
+	const batten_status status = t->space->search(t->space->of, target, t->y, result,
+	                                              &fairing->run);
 	result->iterations += before.iterations;
 	result->probes += before.probes;
 	fairing->run.seconds += seconds;
-	return status == BATTEN_INCOMPLETE ? BATTEN_OK : status;
+	return status;
 }
 
-/* f32 rounds bounds: offsets that are held stand beside them, where a search in f64 would find them free and
+/* f32 rounds bounds: variables that are held stand beside them, where a search in f64 would find them free and
  * in its way. */
 static void put_on_bounds(task *t)
 {
-	for (size_t n = 0; n < t->nodes; n++) {
+	const fairing_space *space = t->space;
+	for (size_t n = 0; n < space->count; n++) {
 		const double near = ROUNDING * fabs(t->y[n]);
-		if (t->y[n] <= t->box->lower_m[n] + near)
-			t->y[n] = t->box->lower_m[n];
-		else if (t->y[n] >= t->box->upper_m[n] - near)
-			t->y[n] = t->box->upper_m[n];
+		const double down = space->lower_m[n] - t->y[n];
+		const double up = space->upper_m[n] - t->y[n];
+		if (space->lower_m[n] < space->upper_m[n] && (down >= -near || up <= near))
+			space->move(space->of, t->y, n, down >= -near ? down : up);
 	}
 }
 
-/* One way to the multipliers; `careful`: a step that leads no closer, often to where bounds hold all there
- * is, is halved. *met false: they were not found. nearest: where the measures came nearest. */
-static batten_status follow(task *t, bool careful, const batten_search_options *search,
-                            const batten_search_problem *shifted, double *target,
-                            kept_state *nearest, batten_search_result *result, bool *met)
-{
+/* A way to the multipliers under way. */
+typedef struct way {
+	double *target;
+	kept_state base;    /* where the last step that was taken led */
+	kept_state nearest; /* where measures came nearest to what is aimed at */
 	double change[BATTEN_KEEP_LIMIT];
-	kept_state base = t->at;
-	bool closer = true;
-	for (unsigned round = 1; round <= ROUND_LIMIT; round++) {
-		for (size_t i = 0; i < t->at.count && !closer; i++)
-			change[i] *= 0.5;
-		if (closer) {
-			base = t->at;
-			if (!kept_choose(&t->at, change))
-				break;
-		}
-		for (size_t i = 0; i < t->at.count; i++)
-			t->at.multiplier[i] = base.multiplier[i] + change[i];
-		if (!aim_at(t, target))
-			break;
-		batten_status status = search_again(t, search, shifted, result);
-		if (status == BATTEN_OK)
-			status = measure_here(t);
-		t->fairing->kept_rounds++;
-		*met = status == BATTEN_OK && kept_judge(&t->at);
-		if (status != BATTEN_OK || *met)
+	batten_search_result *result;
+	bool met;
+	bool told; /* the objective has told how measures answer, at every end */
+} way;
+
+/* The search with `change` added to the multipliers of the base. *led false: nowhere, the targets are beyond all
+ * measure. */
+static batten_status step(task *t, way *w, bool *led)
+{
+	for (size_t i = 0; i < t->at.count; i++)
+		t->at.multiplier[i] = w->base.multiplier[i] + w->change[i];
+	*led = aim_at(t, w->target);
+	if (!*led)
+		return BATTEN_OK;
+	batten_status status = search_again(t, w->target, w->result);
+	if (status == BATTEN_OK)
+		status = measure_here(t);
+	t->fairing->kept_rounds++;
+	w->met = status == BATTEN_OK && kept_judge(&t->at);
+	if (kept_distance(&t->at, t->at.value) < kept_distance(&t->at, w->nearest.value))
+		w->nearest = t->at;
+	return status;
+}
+
+static void shorten(way *w, double part)
+{
+	for (size_t i = 0; i < w->base.count; i++)
+		w->change[i] *= part;
+}
+
+/* How measures answer about y, by the second derivatives of the objective there, as far as these tell. */
+static batten_status find_response(task *t, const double *target, way *w)
+{
+	const fairing_space *space = t->space;
+	const batten_status status = space->answer(space->of, target, t->y, t->at.count, t->slopes,
+	                                           t->answers, &w->told);
+	if (status == BATTEN_OK && w->told)
+		respond_by(t, t->answers);
+	return status;
+}
+
+/* A step of climb(), shortened until it does not go too far. */
+static batten_status climb_on(task *t, way *w, unsigned *rounds)
+{
+	const double rise = kept_rise(&t->at, w->change);
+	for (double end = -INFINITY; *rounds < ROUND_LIMIT && end < -OVERSHOT * rise;) {
+		bool led = true;
+		if (end > -INFINITY)
+			shorten(w, fmax(SHORTEST, fmin(0.5, rise / (rise - end))));
+		const batten_status status = step(t, w, &led);
+		if (status != BATTEN_OK || w->met)
 			return status;
-		kept_learn(&t->at, base.value, change);
-		const double now = kept_distance(&t->at, t->at.value);
-		closer = !careful || now < NEAR || now < kept_distance(&t->at, base.value);
-		if (now < kept_distance(&t->at, nearest->value))
-			*nearest = t->at;
+		++*rounds;
+		end = led ? kept_rise(&t->at, w->change) : -DBL_MAX;
 	}
 	return BATTEN_OK;
 }
 
-/* First by steps as long as they come out, which measures that hang together need; then carefully from where
- * these came nearest. */
-static batten_status meet(task *t, const batten_search_options *search, double *target,
-                          const batten_search_problem *problem, batten_search_result *result)
+/* By the response as it is about each end: multipliers climb to where the least of the objective with them is
+ * greatest, whose slope the measures are. */
+static batten_status climb(task *t, way *w)
 {
-	batten_search_problem shifted = *problem;
-	kept_state nearest = t->at;
-	bool met = false;
-	shifted.target_m = target;
-	for (int careful = 0; careful < 2; careful++) {
-		memcpy(t->at.multiplier, nearest.multiplier, sizeof t->at.multiplier);
-		memcpy(t->at.value, nearest.value, sizeof t->at.value);
-		guess_response(t);
-		const batten_status status = follow(t, careful, search, &shifted, target, &nearest, result,
-		                                    &met);
-		if (status != BATTEN_OK || met)
-			return status;
+	batten_status status = find_response(t, NULL, w);
+	for (unsigned rounds = 0; rounds < ROUND_LIMIT && status == BATTEN_OK && w->told;) {
+		w->told = kept_choose(&t->at, w->change);
+		if (!w->told)
+			break;
+		w->base = t->at;
+		status = climb_on(t, w, &rounds);
+		if (status != BATTEN_OK || w->met)
+			break;
+		status = find_response(t, w->target, w);
 	}
-	return fail_to_meet(t);
+	return status;
 }
 
-static batten_status keep(task *t, const batten_search_options *search, double *target,
-                          batten_search_problem *problem, batten_search_result *result)
+/* By a response that is guessed, then learnt; `careful`: a step that leads no closer, often to where bounds hold
+ * all there is, is halved. */
+static batten_status follow(task *t, bool careful, way *w)
 {
-	/* f32 only screens: it ends so unevenly that measures do not follow multipliers. */
-	batten_search_options exact = *search;
-	exact.precision = BATTEN_F64;
+	bool closer = true;
+	guess_response(t);
+	for (unsigned round = 0; round < ROUND_LIMIT; round++) {
+		bool led = true;
+		if (!closer)
+			shorten(w, 0.5);
+		else if (kept_choose(&t->at, w->change))
+			w->base = t->at;
+		else
+			break;
+		const batten_status status = step(t, w, &led);
+		if (status != BATTEN_OK || w->met)
+			return status;
+		if (!led)
+			break;
+		kept_learn(&t->at, w->base.value, w->change);
+		const double now = kept_distance(&t->at, t->at.value);
+		closer = !careful || now < NEAR || now < kept_distance(&t->at, w->base.value);
+	}
+	return BATTEN_OK;
+}
 
+/* By what is known of the objective. Where that tells nothing, by steps as long as they come out, which measures
+ * that hang together need, then carefully, each from where measures came nearest. */
+static batten_status meet(task *t, double *target, batten_search_result *result)
+{
+	way w = { .target = target, .nearest = t->at, .result = result };
+	batten_status status = t->space->answer ? climb(t, &w) : BATTEN_OK;
+	for (int careful = 0; careful < 2 && status == BATTEN_OK && !w.met && !w.told; careful++) {
+		memcpy(t->at.multiplier, w.nearest.multiplier, sizeof t->at.multiplier);
+		memcpy(t->at.value, w.nearest.value, sizeof t->at.value);
+		status = follow(t, careful, &w);
+	}
+	return status == BATTEN_OK && !w.met ? fail_to_meet(t) : status;
+}
+
+static batten_status keep(task *t, double *target, bool *shifted, batten_search_result *result)
+{
 	batten_status status = want(t);
 	if (status == BATTEN_OK)
 		status = measure_here(t);
@@ -390,39 +414,38 @@ static batten_status keep(task *t, const batten_search_options *search, double *
 		status = check_reach(t);
 	if (status != BATTEN_OK)
 		return status;
-	find_gives(t, problem);
-	if (search->precision == BATTEN_F32)
+	/* f32 only screens: it ends so unevenly that measures do not follow multipliers. */
+	if (t->options->search.precision == BATTEN_F32)
 		put_on_bounds(t);
-	status = meet(t, &exact, target, problem, result);
+	status = meet(t, target, result);
 	for (size_t i = 0; i < t->at.count; i++)
 		t->fairing->kept[i].multiplier = t->at.multiplier[i] / t->fairing->kept[i].tolerance;
-	problem->target_m = target;
+	*shifted = true;
 	return status;
 }
 
 batten_status fairing_keep(batten_fairing *fairing, const batten_fair_options *options,
-                           const fairing_box *box, const batten_search_options *search,
-                           double *target_m, batten_search_problem *problem, double *y,
+                           const fairing_space *space, double *target_m, bool *shifted, double *y,
                            batten_search_result *result)
 {
 	batten_context *context = fairing->context;
-	task t = { .fairing = fairing, .options = options, .box = box, .y = y };
-	t.nodes = hull_node_count(fairing->smoothed);
+	task t = { .fairing = fairing, .options = options, .space = space, .y = y };
 	t.at.count = options->keep_count;
 	fairing->kept_rounds = 0;
-	batten_status status = batten_hull_clone(context, fairing->smoothed, &t.hull);
-	t.moved = batten_allocate(context, MEASURED_AT_ONCE * t.nodes, sizeof *t.moved);
+	*shifted = false;
+	t.moved = batten_allocate(context, MEASURED_AT_ONCE * space->count, sizeof *t.moved);
 	t.found = batten_allocate(context, MEASURED_AT_ONCE, sizeof *t.found);
-	t.slopes = batten_allocate(context, t.at.count * t.nodes, sizeof *t.slopes);
-	t.gives = batten_allocate(context, t.nodes, sizeof *t.gives);
-	if (status == BATTEN_OK && (!t.moved || !t.found || !t.slopes || !t.gives))
-		status = BATTEN_MEMORY;
+	t.slopes = batten_allocate(context, t.at.count * space->count, sizeof *t.slopes);
+	t.ways = batten_allocate(context, t.at.count * space->count, sizeof *t.ways);
+	t.answers = batten_allocate(context, t.at.count * space->count, sizeof *t.answers);
+	const bool all = t.moved && t.found && t.slopes && t.ways && t.answers;
+	batten_status status = all ? BATTEN_OK : BATTEN_MEMORY;
 	if (status == BATTEN_OK)
-		status = keep(&t, search, target_m, problem, result);
-	batten_hull_destroy(t.hull);
+		status = keep(&t, target_m, shifted, result);
 	batten_release(context, t.moved);
 	batten_release(context, t.found);
 	batten_release(context, t.slopes);
-	batten_release(context, t.gives);
+	batten_release(context, t.ways);
+	batten_release(context, t.answers);
 	return status;
 }

@@ -98,6 +98,14 @@ void kept_learn(kept_state *t, const double *before, const double *change)
 	}
 }
 
+double kept_rise(const kept_state *t, const double *change)
+{
+	double sum = 0.0;
+	for (size_t i = 0; i < t->count; i++)
+		sum += change[i] * (t->value[i] - AIM * t->side[i]);
+	return sum;
+}
+
 double kept_distance(const kept_state *t, const double *value)
 {
 	double square = 0.0;

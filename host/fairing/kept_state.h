@@ -27,6 +27,9 @@ bool kept_choose(kept_state *t, double *change);
 /* What a change of the multipliers did, put into the response: value was `before`. */
 void kept_learn(kept_state *t, const double *before, const double *change);
 
+/* The slope along a change of the multipliers of the least of the objective with them. */
+double kept_rise(const kept_state *t, const double *change);
+
 /* How far the held measures are from what is aimed at. */
 double kept_distance(const kept_state *t, const double *value);
 

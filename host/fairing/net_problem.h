@@ -17,4 +17,14 @@ batten_status net_problems_open(batten_context *context, size_t count,
                                 const batten_net_options *options, net_problems *out);
 void net_problems_close(net_problems *p);
 
+/* The ways that slopes meet in closeness alone, [count][v][u] each (net_closeness.h), and how the free poles
+ * about an end y_m answer to them (net_certifier_answer()), in double. Errors: those of net_problems_open(),
+ * INPUT (the problem's fault; poles that closeness does not tell apart). */
+batten_status net_problem_yield(batten_context *context, const batten_net_problem *problem,
+                                const batten_net_options *options, size_t count,
+                                const double *slopes, double *ways);
+batten_status net_problem_answer(batten_context *context, const batten_net_problem *problem,
+                                 const batten_net_options *options, const double *y_m, size_t count,
+                                 const double *slopes, double *ways, bool *known);
+
 #endif

@@ -1,6 +1,7 @@
 /* batten_net_search_batch, and what its ends are worth. */
 #include "batch/net_batch.h"
 #include "batch/net_certificate.h"
+#include "batch/net_closeness.h"
 #include "batch/search_result.h"
 #include "fairing/net_problem.h"
 
@@ -64,4 +65,42 @@ batten_status batten_net_polish_batch(batten_context *context, size_t count,
 		return batten_fail(context, BATTEN_USAGE,
 		                   "found a gap of %g to polish to, expected one above 0", gap);
 	return certify(context, count, problems, options, y_m, gap, y_m, certificates);
+}
+
+static batten_status open_one(batten_context *context, const batten_net_problem *problem,
+                              const batten_net_options *options, net_problems *p)
+{
+	const batten_status status = net_problems_open(context, 1, problem, options, p);
+	if (status == BATTEN_OK && p->plan.items[0].fault)
+		return batten_fail(context, BATTEN_INPUT, "%s", p->plan.items[0].fault);
+	return status;
+}
+
+batten_status net_problem_yield(batten_context *context, const batten_net_problem *problem,
+                                const batten_net_options *options, size_t count,
+                                const double *slopes, double *ways)
+{
+	net_problems p;
+	batten_status status = open_one(context, problem, options, &p);
+	if (status == BATTEN_OK)
+		status = net_closeness_invert(&p.plan, 0, count, slopes, ways);
+	net_problems_close(&p);
+	return status;
+}
+
+batten_status net_problem_answer(batten_context *context, const batten_net_problem *problem,
+                                 const batten_net_options *options, const double *y_m, size_t count,
+                                 const double *slopes, double *ways, bool *known)
+{
+	net_problems p;
+	batten_status status = open_one(context, problem, options, &p);
+	if (status == BATTEN_OK) {
+		net_certifier c;
+		status = net_certifier_create(&p.plan, &c);
+		if (status == BATTEN_OK)
+			status = net_certifier_answer(&c, 0, y_m, count, slopes, ways, known);
+		net_certifier_release(&c);
+	}
+	net_problems_close(&p);
+	return status;
 }

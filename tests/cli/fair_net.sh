@@ -32,6 +32,35 @@ holds 'polished' 'gap <= 1e-12 && steps > 0 && after <= plain' \
 	"after=$(member polished/report.json search objective_after)" \
 	"plain=$(member "$report" search objective_after)"
 
+# --keep: measures of the surface stay within their tolerances, whatever searches.
+soft="--variables net --net 8x7 --w1 1 --w2 400 --max-distance 2%"
+keep=volume_m3=0.01%,lcb_pct_lbp_fwd=0.0005
+# shellcheck disable=SC2086
+{
+	expect 0 fair "$hull" $soft --out free --quiet
+	expect 0 fair "$hull" $soft --keep $keep --out kept --quiet
+	expect 0 fair "$hull" $soft --keep $keep --device reference --out known --quiet
+}
+cmp kept/surface.json known/surface.json || fail 'other poles on the C path'
+expect_json kept/report.json
+# surface_volume FOLDER: of its surface, at the draft of the hull.
+surface_volume()
+{
+	expect 0 measure "$1/surface.json" --draft 1 --json
+	member "$out" volume_m3
+}
+free=$(surface_volume free)
+kept=$(surface_volume kept)
+wanted=$(sed -n 's/.*"wanted": \([0-9.]*\).*/\1/p' kept/report.json | head -n 1)
+holds 'the volume is kept' 'a - w <= 1.0001e-4 * w && w - a <= 1.0001e-4 * w' a="$kept" w="$wanted"
+holds 'it would not have been' 'a - w > 1e-4 * w || w - a > 1e-4 * w' a="$free" w="$wanted"
+holds 'what it costs' 'c > f' c="$(member kept/report.json search objective_after)" \
+	f="$(member free/report.json search objective_after)"
+# shellcheck disable=SC2086
+expect 3 fair "$hull" $soft --keep gmt_m=0.1 --out none --quiet
+one_line
+says 'gmt_m is nan: it cannot be kept'
+
 # Any device: the same bits.
 # shellcheck disable=SC2086
 expect 0 fair "$hull" $net --device auto --out auto --quiet

@@ -84,8 +84,9 @@ typedef enum batten_restore {
 	BATTEN_RESTORE_CP_LCB,
 } batten_restore;
 
-/* A measure of the hull at its draft, in the order of batten_hydrostatics, that the search over offsets
- * keeps where it is on the smoothed hull. */
+/* A measure of the hull at its draft, in the order of batten_hydrostatics, that a search keeps where it is on
+ * the smoothed hull; with NET of the surface, by batten_surface_hydrostatics() at the draft and over the length
+ * of the hull, where it is on the fitted one. */
 typedef struct batten_keep {
 	size_t quantity;  /* below BATTEN_HYDROSTATICS_COUNT */
 	double tolerance; /* either way, above 0, in the unit of the measure */
@@ -113,8 +114,8 @@ typedef struct batten_fair_options {
 	const batten_lock *locks; /* borrowed for the call */
 	size_t lock_count;
 	const batten_hull *lower, *upper; /* bounds on the same table, or NULL; of OFFSETS only */
-	/* Measures to keep, borrowed for the call; of OFFSETS, w2 above 0, by searches in f64 after one in the
-	 * precision of `search`. The weight is chosen without them. */
+	/* Measures to keep, borrowed for the call; w2 above 0, by searches in f64 after one in the precision of
+	 * `search`. The weight is chosen without them. */
 	const batten_keep *keep;
 	size_t keep_count; /* at most BATTEN_KEEP_LIMIT */
 	double polish_gap; /* batten_search_polish_batch(), or that of nets, to this; 0 (default): not;
@@ -192,9 +193,10 @@ BATTEN_API batten_fairing_facts batten_fairing_describe(const batten_fairing *fa
 
 /* What became of a measure to keep. */
 typedef struct batten_kept {
-	size_t quantity;          /* in the order of batten_hydrostatics */
-	double wanted, tolerance; /* of the smoothed hull; in the unit of the measure */
-	double value;             /* of the faired hull */
+	size_t quantity; /* in the order of batten_hydrostatics */
+	double wanted,
+		tolerance;     /* of the smoothed hull or the fitted surface; in the unit of the measure */
+	double value;      /* of the faired hull or surface */
 	double multiplier; /* what a unit of it costs, in the unit of the objective; 0: nothing had to
 	                             be done for it */
 } batten_kept;
