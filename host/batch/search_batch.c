@@ -23,9 +23,12 @@ static batten_status choose(batten_context *context, batten_search_options *opti
 		                   "search algorithm %s: auto, textbook, multilevel or block is expected",
 		                   batten_search_algorithm_text(options->algorithm));
 	if (options->algorithm == BATTEN_ALGORITHM_BLOCK && !search_options_plain(options))
-		return batten_fail(context, BATTEN_USAGE,
-		                   "the block search knows bending with weights 1 and 1 only: multilevel "
-		                   "or auto is expected");
+		return batten_fail(
+			context, BATTEN_USAGE,
+			"the block search knows bending with weights 1 and 1, not %s with %g and %g: "
+			"multilevel or auto is expected",
+			batten_fairness_text(options->fairness), options->longitudinal_weight,
+			options->transverse_weight);
 	if (options->interior_penalty && options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)
 		return batten_fail(
 			context, BATTEN_USAGE,
@@ -103,6 +106,21 @@ batten_status batten_search_batch(batten_context *context, const batten_grid *gr
 	if (run)
 		*run = told;
 	return search_results_judge(context, count, results);
+}
+
+const char *batten_fairness_text(batten_fairness fairness)
+{
+	switch (fairness) {
+	case BATTEN_FAIRNESS_BENDING:
+		return "bending";
+	case BATTEN_FAIRNESS_MEAN:
+		return "mean";
+	case BATTEN_FAIRNESS_GAUSS:
+		return "gauss";
+	case BATTEN_FAIRNESS_VARIATION:
+		return "mvc";
+	}
+	return "unknown";
 }
 
 const char *batten_search_algorithm_text(batten_search_algorithm algorithm)

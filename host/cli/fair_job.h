@@ -94,9 +94,6 @@ batten_status fair_net_options_read(const fair_request *request, batten_fair_opt
 batten_status fair_net_lock_read(const char *text, size_t length, batten_fair_options *options,
                                  fair_locks *locks, bool *found);
 
-/* "bending" ... as --fairness has them. */
-const char *fair_fairness_text(batten_fairness fairness);
-
 void fair_warn(fair_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* report.json; takes nothing. Errors: MEMORY, IO. */

@@ -4,20 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const fairness_names[] = { "bending", "mean", "gauss", "mvc" };
-enum { FAIRNESS_COUNT = sizeof fairness_names / sizeof fairness_names[0] };
-_Static_assert((int)FAIRNESS_COUNT == (int)BATTEN_FAIRNESS_VARIATION + 1, "a name for each");
-
-const char *fair_fairness_text(batten_fairness fairness)
-{
-	return fairness_names[fairness];
-}
-
 static batten_status read_fairness(const char *text, batten_fair_options *options)
 {
-	for (size_t i = 0; i < FAIRNESS_COUNT; i++)
-		if (strcmp(text, fairness_names[i]) == 0) {
-			options->fairness = (batten_fairness)i;
+	for (int f = BATTEN_FAIRNESS_BENDING; f <= BATTEN_FAIRNESS_VARIATION; f++)
+		if (strcmp(text, batten_fairness_text((batten_fairness)f)) == 0) {
+			options->fairness = (batten_fairness)f;
 			return BATTEN_OK;
 		}
 	return cli_usage("fair", "--fairness: found '%s', expected bending, mean, gauss or mvc", text);

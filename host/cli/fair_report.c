@@ -154,7 +154,7 @@ static void set_search(json_t *object, const fair_job *job)
 	    json_string(batten_search_algorithm_text(batten_fairing_result(job->fairing)->algorithm)));
 	set(object, "variables", json_string(net ? "net" : "offsets"));
 	set(object, "interior_penalty", json_boolean(job->options.search.interior_penalty));
-	set(object, "fairness", json_string(fair_fairness_text(job->options.fairness)));
+	set(object, "fairness", json_string(batten_fairness_text(job->options.fairness)));
 	set(object, "longitudinal_weight", number(job->options.search.longitudinal_weight));
 	set(object, "transverse_weight", number(job->options.search.transverse_weight));
 	set(object, "w1", number(facts.w1));

@@ -34,6 +34,11 @@ expect 2 fair "$hull" --search textbook --variables net --out out
 one_line
 says "'textbook'"
 
+# --search block says what it cannot and what it found.
+expect 2 fair "$hull" $weights --fairness mvc --search block --device reference --out out
+one_line
+says 'not mvc with 1 and 1'
+
 # --front: fairness rises and closeness falls with w2/w1, and the ends are those of single runs.
 expect 0 fair "$hull" --front 10:1e5:5 --device reference --out front
 awk -F, '/^#/ { next }

@@ -21,6 +21,8 @@ typedef enum batten_fairness {
 	BATTEN_FAIRNESS_GAUSS,     /* |k1 k2|, as sqrt(K^2 + e^2) with e = 0.001 / h^2 */
 	BATTEN_FAIRNESS_VARIATION, /* h^2 times (dk1/ds1)^2 + (dk2/ds2)^2 along their own lines */
 } batten_fairness;
+/* "bending", "mean", "gauss", "mvc". */
+BATTEN_API const char *batten_fairness_text(batten_fairness fairness);
 
 /* The grid all searches of a batch share: coordinates ascending, 3..4096 each. */
 typedef struct batten_grid {
