@@ -142,7 +142,6 @@ batten_status fairing_box_fill(batten_context *context, const batten_hull *smoot
                                double distance_m, fairing_box *box)
 {
 	const size_t nodes = hull_node_count(smoothed);
-	const double half_beam = batten_hull_half_beam_m(smoothed);
 	box->variable_count = 0;
 	batten_status status = check_table(context, smoothed, options->lower, "lower");
 	if (status == BATTEN_OK)
@@ -150,7 +149,7 @@ batten_status fairing_box_fill(batten_context *context, const batten_hull *smoot
 	if (status != BATTEN_OK)
 		return status;
 	bound_nodes(nodes, smoothed->nodes, smoothed->y_m, FAIRING_LIMIT_MARGIN * distance_m,
-	            FAIRING_HALF_BEAM_LIMIT * half_beam, box->lower_m, box->upper_m,
+	            FAIRING_HALF_BEAM_LIMIT * box->half_beam_m, box->lower_m, box->upper_m,
 	            box->closeness_weight);
 	if (options->lower || options->upper || locked)
 		tighten(smoothed, options, locked, box);
@@ -161,7 +160,7 @@ batten_status fairing_box_fill(batten_context *context, const batten_hull *smoot
 	}
 	for (size_t n = 0; n < nodes && excluded > 0; n++)
 		if (box->lower_m[n] > box->upper_m[n])
-			return explain(context, smoothed, options, half_beam, distance_m, n);
+			return explain(context, smoothed, options, box->half_beam_m, distance_m, n);
 	return BATTEN_OK;
 }
 
@@ -169,7 +168,7 @@ batten_status fairing_box_create(batten_context *context, const batten_hull *smo
                                  const batten_fair_options *options, const uint8_t *locked,
                                  double distance_m, fairing_box *out)
 {
-	fairing_box box = { 0 };
+	fairing_box box = { .half_beam_m = batten_hull_half_beam_m(smoothed) };
 	const size_t nodes = hull_node_count(smoothed);
 	box.lower_m = batten_allocate(context, nodes, sizeof(double));
 	box.upper_m = batten_allocate(context, nodes, sizeof(double));
@@ -196,7 +195,7 @@ batten_search_problem fairing_problem(const batten_hull *smoothed, const fairing
 		                            .closeness_weight = box->closeness_weight,
 		                            .w1 = w1,
 		                            .w2 = w2,
-		                            .half_beam_m = batten_hull_half_beam_m(smoothed) };
+		                            .half_beam_m = box->half_beam_m };
 }
 
 void fairing_box_release(batten_context *context, fairing_box *box)

@@ -14,6 +14,7 @@ typedef struct fairing_box {
 	double *lower_m, *upper_m; /* [waterlines][stations]; equal where nothing moves */
 	double *closeness_weight;  /* 0 at '?' cells: there is no half-breadth to stay close to */
 	size_t variable_count;
+	double half_beam_m; /* of the smoothed hull */
 } fairing_box;
 
 /* 1 at each node that a lock of the options holds, [waterlines][stations], released by the caller.
@@ -30,7 +31,7 @@ batten_status fairing_box_create(batten_context *context, const batten_hull *smo
                                  const batten_fair_options *options, const uint8_t *locked,
                                  double distance_m, fairing_box *out);
 
-/* The same into arrays that are there. */
+/* The same into arrays that are there, as half_beam_m is. */
 batten_status fairing_box_fill(batten_context *context, const batten_hull *smoothed,
                                const batten_fair_options *options, const uint8_t *locked,
                                double distance_m, fairing_box *box);

@@ -1,4 +1,6 @@
-/* The public hydrostatics of many half-breadths on one table. */
+/* The hydrostatics of many half-breadths on one table. */
+#include "hydrostatics/offsets_batch.h"
+
 #include "batch/variants_batch.h"
 #include "hydrostatics/offsets_tables.h"
 
@@ -8,13 +10,18 @@
 /* Hulls of one piece of a batch, whose outcomes are held at once. */
 enum { PIECE = 4096 };
 
-/* A batch and what it stands on. */
-struct task {
+struct offsets_batch {
 	batten_context *context;
 	const batten_hull *table;
 	batten_hydrostatics_options chosen;
 	size_t draft_count;
-	const double *drafts_m;
+	double *drafts_m;
+	variants_plan plan; /* empty where hulls on this table go one by one */
+};
+
+/* Hulls at work. */
+struct task {
+	offsets_batch *batch;
 	const double *y_m;
 	const uint8_t *nodes;
 	batten_hydrostatics *out;
@@ -23,12 +30,12 @@ struct task {
 
 static size_t node_count(const struct task *task)
 {
-	return hull_node_count(task->table);
+	return hull_node_count(task->batch->table);
 }
 
 static const uint8_t *nodes_of(const struct task *task, size_t which)
 {
-	return task->nodes ? task->nodes + which * node_count(task) : task->table->nodes;
+	return task->nodes ? task->nodes + which * node_count(task) : task->batch->table->nodes;
 }
 
 static bool is_half_breadth(double y)
@@ -47,7 +54,7 @@ static batten_status check_offsets(const struct task *task, size_t count)
 			sound += (nodes[n] == BATTEN_NODE_OUTSIDE) | is_half_breadth(y[n]);
 		for (size_t n = 0; n < all && sound < all; n++)
 			if (nodes[n] != BATTEN_NODE_OUTSIDE && !is_half_breadth(y[n]))
-				return batten_fail(task->context, BATTEN_USAGE,
+				return batten_fail(task->batch->context, BATTEN_USAGE,
 				                   "hull %zu: half-breadth %g m of node %zu, expected 0 to %g", i,
 				                   y[n], n, HULL_LARGEST_M);
 	}
@@ -60,15 +67,16 @@ static batten_status measure_one(struct task *task, size_t which)
 	task->singly++;
 	const size_t nodes = node_count(task);
 	batten_hull *hull = NULL;
-	batten_status status = batten_hull_clone(task->context, task->table, &hull);
+	batten_status status = batten_hull_clone(task->batch->context, task->batch->table, &hull);
 	if (status != BATTEN_OK)
 		return status;
 	if (task->nodes)
 		memcpy(hull->nodes, task->nodes + which * nodes, nodes);
 	for (size_t n = 0; n < nodes; n++)
 		hull->y_m[n] = hull->nodes[n] == BATTEN_NODE_OUTSIDE ? 0 : task->y_m[which * nodes + n];
-	status = batten_hull_hydrostatics(task->context, hull, &task->chosen, task->draft_count,
-	                                  task->drafts_m, task->out + which * task->draft_count);
+	status = batten_hull_hydrostatics(task->batch->context, hull, &task->batch->chosen,
+	                                  task->batch->draft_count, task->batch->drafts_m,
+	                                  task->out + which * task->batch->draft_count);
 	batten_hull_destroy(hull);
 	return status;
 }
@@ -78,28 +86,29 @@ static double half_beam_of(const struct task *task, size_t which)
 {
 	const size_t nodes = node_count(task);
 	double most = hull_widest_node_m(nodes, nodes_of(task, which), task->y_m + which * nodes);
-	for (size_t i = 0; i < task->table->end_count; i++)
-		most = fmax(most, task->table->ends[i].y_m);
+	for (size_t i = 0; i < task->batch->table->end_count; i++)
+		most = fmax(most, task->batch->table->ends[i].y_m);
 	return most;
 }
 
 /* Hulls first .. first + count - 1 through the plan; those it cannot take one by one. */
-static batten_status run_piece(struct task *task, variants_plan *plan, size_t first, size_t count,
-                               batten_run *run)
+static batten_status run_piece(struct task *task, size_t first, size_t count, batten_run *run)
 {
+	variants_plan *plan = &task->batch->plan;
 	const size_t nodes = node_count(task), numbers = variants_plan_outcome(plan);
 	batten_run told = { .strict = true };
 	plan->count = count;
 	plan->y_m = task->y_m + first * nodes;
-	plan->nodes = task->nodes ? task->nodes + first * nodes : task->table->nodes;
+	plan->nodes = task->nodes ? task->nodes + first * nodes : task->batch->table->nodes;
 	plan->nodes_alike = !task->nodes;
 	batten_status status = variants_batch_run(plan, &told);
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++) {
 		double *outcome = plan->out + i * numbers;
 		outcome[VARIANTS_OUT_HALF_BEAM] = half_beam_of(task, first + i);
 		if (outcome[VARIANTS_OUT_END] == VARIANTS_END_GOOD)
-			offsets_tables_take(task->table, &task->chosen, task->draft_count, task->drafts_m,
-			                    outcome, task->out + (first + i) * task->draft_count);
+			offsets_tables_take(task->batch->table, &task->batch->chosen, task->batch->draft_count,
+			                    task->batch->drafts_m, outcome,
+			                    task->out + (first + i) * task->batch->draft_count);
 		else
 			status = measure_one(task, first + i);
 	}
@@ -108,18 +117,91 @@ static batten_status run_piece(struct task *task, variants_plan *plan, size_t fi
 	return status;
 }
 
-static batten_status run_pieces(struct task *task, variants_plan *plan, size_t count,
-                                batten_run *run)
+static batten_status run_pieces(struct task *task, size_t count, batten_run *run)
 {
+	variants_plan *plan = &task->batch->plan;
 	const size_t piece = count < PIECE ? count : PIECE;
-	batten_status status = offsets_tables_fill(task->table, task->drafts_m, NAN, plan);
-	plan->out = batten_allocate(task->context, piece,
+	batten_status status = BATTEN_OK;
+	plan->out = batten_allocate(task->batch->context, piece,
 	                            variants_plan_outcome(plan) * sizeof *plan->out);
-	if (!plan->out && status == BATTEN_OK)
-		status = BATTEN_MEMORY;
+	if (!plan->out)
+		return BATTEN_MEMORY;
 	for (size_t first = 0; first < count && status == BATTEN_OK; first += piece)
-		status = run_piece(task, plan, first, count - first < piece ? count - first : piece, run);
-	batten_release(task->context, plan->out);
+		status = run_piece(task, first, count - first < piece ? count - first : piece, run);
+	batten_release(task->batch->context, plan->out);
+	return status;
+}
+
+static batten_status make_plan(offsets_batch *batch, const batten_batch_options *chosen)
+{
+	const batten_hull *table = batch->table;
+	const batten_status status = variants_plan_create(batch->context, table->station_count,
+	                                                  table->waterline_count, batch->draft_count,
+	                                                  &batch->plan);
+	batch->plan.device = chosen->device;
+	batch->plan.lanes = chosen->lanes;
+	batch->plan.work_group = chosen->work_group;
+	return status == BATTEN_OK ? offsets_tables_fill(table, batch->drafts_m, NAN, &batch->plan)
+	                           : status;
+}
+
+batten_status offsets_batch_create(batten_context *context, const batten_hull *table,
+                                   const batten_hydrostatics_options *options,
+                                   const batten_batch_options *batch, size_t draft_count,
+                                   const double *drafts_m, offsets_batch **out)
+{
+	const double low = table->z_m[0], high = table->z_m[table->waterline_count - 1];
+	offsets_batch made = { .context = context, .table = table, .draft_count = draft_count };
+	batten_batch_options chosen;
+	batten_status status = quantities_options(context, options, &made.chosen);
+	if (status == BATTEN_OK)
+		status = variants_options(context, batch, &chosen);
+	for (size_t d = 0; d < draft_count && status == BATTEN_OK; d++)
+		status = quantities_check_draft(context, low, high, drafts_m[d]);
+	if (status != BATTEN_OK)
+		return status;
+	offsets_batch *kept = batten_allocate(context, 1, sizeof *kept);
+	made.drafts_m = batten_allocate(context, draft_count, sizeof *made.drafts_m);
+	if (!kept || !made.drafts_m) {
+		batten_release(context, made.drafts_m);
+		batten_release(context, kept);
+		return BATTEN_MEMORY;
+	}
+	if (draft_count > 0)
+		memcpy(made.drafts_m, drafts_m, draft_count * sizeof *drafts_m);
+	if (draft_count > 0 && offsets_tables_fit(table, made.chosen.quadrature, draft_count))
+		status = make_plan(&made, &chosen);
+	*kept = made;
+	if (status == BATTEN_OK)
+		*out = kept;
+	else
+		offsets_batch_destroy(kept);
+	return status;
+}
+
+void offsets_batch_destroy(offsets_batch *batch)
+{
+	if (!batch)
+		return;
+	variants_plan_destroy(&batch->plan);
+	batten_release(batch->context, batch->drafts_m);
+	batten_release(batch->context, batch);
+}
+
+batten_status offsets_batch_run(offsets_batch *batch, size_t count, const double *y_m,
+                                const uint8_t *nodes, batten_hydrostatics *out, batten_run *run)
+{
+	struct task task = { .batch = batch, .y_m = y_m, .nodes = nodes, .out = out };
+	batten_run told = { .strict = true };
+	batten_status status = check_offsets(&task, count);
+	if (batch->plan.context && count > 0 && status == BATTEN_OK)
+		status = run_pieces(&task, count, &told);
+	const size_t alone = batch->plan.context || batch->draft_count == 0 ? 0 : count;
+	for (size_t i = 0; i < alone && status == BATTEN_OK; i++)
+		status = measure_one(&task, i);
+	variants_tell_singly(&told, task.singly, count);
+	if (status == BATTEN_OK && run)
+		*run = told;
 	return status;
 }
 
@@ -130,35 +212,11 @@ batten_status batten_hull_hydrostatics_batch(batten_context *context, const batt
                                              size_t draft_count, const double *drafts_m,
                                              batten_hydrostatics *out, batten_run *run)
 {
-	struct task task = { context, table, { 0 }, draft_count, drafts_m, y_m, nodes, out, 0 };
-	batten_run told = { .strict = true };
-	const double low = table->z_m[0], high = table->z_m[table->waterline_count - 1];
-	batten_batch_options chosen;
-	batten_status status = quantities_options(context, options, &task.chosen);
+	offsets_batch *made = NULL;
+	batten_status status = offsets_batch_create(context, table, options, batch, draft_count,
+	                                            drafts_m, &made);
 	if (status == BATTEN_OK)
-		status = variants_options(context, batch, &chosen);
-	for (size_t d = 0; d < draft_count && status == BATTEN_OK; d++)
-		status = quantities_check_draft(context, low, high, drafts_m[d]);
-	if (status == BATTEN_OK)
-		status = check_offsets(&task, count);
-	if (status != BATTEN_OK)
-		return status;
-	if (!offsets_tables_fit(table, task.chosen.quadrature, draft_count)) {
-		for (size_t i = 0; i < count && status == BATTEN_OK; i++)
-			status = measure_one(&task, i);
-	} else if (count > 0 && draft_count > 0) {
-		variants_plan plan = { 0 };
-		status = variants_plan_create(context, table->station_count, table->waterline_count,
-		                              draft_count, &plan);
-		plan.device = chosen.device;
-		plan.lanes = chosen.lanes;
-		plan.work_group = chosen.work_group;
-		if (status == BATTEN_OK)
-			status = run_pieces(&task, &plan, count, &told);
-		variants_plan_destroy(&plan);
-	}
-	variants_tell_singly(&told, task.singly, count);
-	if (status == BATTEN_OK && run)
-		*run = told;
+		status = offsets_batch_run(made, count, y_m, nodes, out, run);
+	offsets_batch_destroy(made);
 	return status;
 }

@@ -1,6 +1,8 @@
 /* What runs the stages. */
 #include "sweep/stages.h"
 
+#include "hydrostatics/offsets_batch.h"
+
 int sweep_machine_device_f64(const sweep_machine *machine)
 {
 	batten_device device;
@@ -26,6 +28,7 @@ void sweep_machine_destroy(sweep_machine *machine)
 {
 	if (machine->context)
 		batten_release(machine->context, machine->room);
+	offsets_batch_destroy(machine->afloat);
 	sweep_crew_destroy(&machine->crew);
 	*machine = (sweep_machine){ 0 };
 }

@@ -71,7 +71,8 @@ static batten_status prepare(batten_context *context, const struct searches *sea
 	const size_t at = place * block->nodes_each;
 	fairing_box box = { .lower_m = searches->lower_m + at,
 		                .upper_m = searches->upper_m + at,
-		                .closeness_weight = searches->closeness_weight + at };
+		                .closeness_weight = searches->closeness_weight + at,
+		                .half_beam_m = half_beam };
 	const batten_fair_options options = plan_fairing_options(fairing, &design->fairing);
 	uint8_t *locked = NULL;
 	batten_status status = BATTEN_OK;

@@ -1,5 +1,6 @@
 /* Hulls -> numbers, and whether they will do. */
 #include "fairing/measures.h"
+#include "hydrostatics/offsets_batch.h"
 #include "hydrostatics/offsets_tables.h"
 #include "sweep/stages.h"
 
@@ -7,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MEASURE_PIECE = 64 };
+enum { MEASURE_PIECE = 128 };
 
 /* The block's designs, and those of them that lie on the parent's table: their hydrostatics are worked in
  * one batch, at the drafts of the plan and of the parent. Which way a design goes depends on it alone:
@@ -216,17 +217,19 @@ static batten_status gather(sweep_machine *machine, const struct measuring *meas
 static batten_status run_batch(sweep_machine *machine, const struct measuring *measuring)
 {
 	const sweep_plan *plan = measuring->block->plan;
-	batten_batch_options batch;
-	batten_batch_options_default(&batch);
 	struct offsets offsets;
 	batten_status status = gather(machine, measuring, &offsets);
-	if (status != BATTEN_OK)
-		return status;
-	batch.device = sweep_machine_device_f64(machine);
-	status = batten_hull_hydrostatics_batch(machine->context, plan->parent, &plan->hydrostatics,
-	                                        &batch, measuring->batch_count, offsets.y_m,
-	                                        offsets.nodes, measuring->batch_drafts,
-	                                        measuring->drafts_m, measuring->forms, NULL);
+	if (status == BATTEN_OK && !machine->afloat) {
+		batten_batch_options batch;
+		batten_batch_options_default(&batch);
+		batch.device = sweep_machine_device_f64(machine);
+		status = offsets_batch_create(machine->context, plan->parent, &plan->hydrostatics, &batch,
+		                              measuring->batch_drafts, measuring->drafts_m,
+		                              &machine->afloat);
+	}
+	if (status == BATTEN_OK)
+		status = offsets_batch_run(machine->afloat, measuring->batch_count, offsets.y_m,
+		                           offsets.nodes, measuring->forms, NULL);
 	return status;
 }
 

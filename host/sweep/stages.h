@@ -13,6 +13,8 @@ typedef struct sweep_machine {
 	batten_run run; /* of the last search that a device or the C path ran for a group of designs */
 	void *room;     /* what stages work in; kept from part to part */
 	size_t room_size;
+	struct offsets_batch
+		*afloat; /* hydrostatics on the parent's table; NULL before the first part */
 } sweep_machine;
 
 /* Room of count arrays of half-breadths, with what was in it last. NULL: MEMORY. */

@@ -50,7 +50,7 @@ static bool is_shared_between_machines(const char *path)
  * to be split. A log of 8 MB between two syncs. */
 static batten_status choose_pages(const sweep_database *database)
 {
-	return database_run(database, "PRAGMA page_size=16384; PRAGMA wal_autocheckpoint=500");
+	return database_run(database, "PRAGMA page_size=16384; PRAGMA wal_autocheckpoint=128");
 }
 
 static batten_status choose_journal(const sweep_store *store, batten_sweep_journal journal)
