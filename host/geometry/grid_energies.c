@@ -138,14 +138,16 @@ INLINED void work_run(const batten_hull *hull, const grid_stencils *stencils,
 		const double product = d.y_xx * d.y_zz - d.y_xz * d.y_xz;
 		const double bent = bending_of(t, d.y_xx, d.y_xz, d.y_zz);
 		const bool here = (near[l] > 0) & (place[l] >= from);
-		bending[l] = here & (bent > 0) ? bent * cell : 0.0;
+		const bool bends = here & (bent > 0);
+		bending[l] = bends ? bent * cell : 0.0;
 		mean[l] = here ? 0.25 * (twice * twice) * (t.inverse * t.inverse) * t.root * cell : 0.0;
 		gauss[l] = here ? fabs(product) * t.inverse * t.root * cell : 0.0;
 		variation[l] = 0.0;
 		if (wide) {
 			const graph_third third = third_of(&along, &z, w, station + l, y + l, row);
 			const double varied = graph_variation_of(d, third, t) * cell;
-			variation[l] = (far[l] > 0) & (place[l] >= from) ? varied : 0.0;
+			const bool varies = (far[l] > 0) & (place[l] >= from);
+			variation[l] = varies ? varied : 0.0;
 		}
 	}
 	RUN_LOOP
