@@ -1,22 +1,7 @@
 /* The plain C path of kernels/hull_variants.cl. */
 #include "reference/hull_variants.h"
 
-#include <stddef.h>
-
-#define BATTEN_DOUBLE 1
-#define BATTEN_DIALECT_C
-#include "shared/dialect.h"
-
-/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too; not
- * where a sanitizer's checks make that function a burden to its compiler. */
-#ifdef BATTEN_SANITIZED
-#define INLINED static inline
-#else
-#define INLINED static inline __attribute__((always_inline))
-#endif
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #include "shared/variants_course.h"
 
 INLINED void work_hull(const int32_t *shape, const int32_t *lists, const double *tables,

@@ -1,17 +1,7 @@
 /* The plain C path of kernels/surface_hydrostatics.cl. */
 #include "reference/surface_hydrostatics.h"
 
-#include <stddef.h>
-
-#define BATTEN_DOUBLE 1
-#define BATTEN_DIALECT_C
-#include "shared/dialect.h"
-
-/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too. */
-#define INLINED static inline __attribute__((always_inline))
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #include "shared/afloat_course.h"
 
 INLINED void work_surface(const int32_t *shape, const int32_t *lists, const double *tables,
