@@ -12,10 +12,10 @@ enum { COLUMNS = 16, ROWS = 10, POLES = COLUMNS * ROWS, DEGREE = 3, GAUSS = 4 };
 /* Floating-point operations, the least known, root and division as one each, multiply-add as two. A sample of a
  * direction: y and five derivatives moved (12), the normal, of which one part never changes (6), its square (4), the
  * second form (15) and the first (6), Gauss and mean curvature (3, 8), a division and a root (2), the density of bending
- * (4), both weights and sums (5); four evaluations a visit: neighbours have moved, so that the first is not known. What
+ * (4), both weights and sums (5); three evaluations a visit: that at y is known, its terms are kept. What
  * is evaluated beside the moves counts nothing, nor do lanes whose search has ended. */
 #define SAMPLE_OPERATIONS 65.0
-#define EVALUATIONS 4.0
+#define EVALUATIONS 3.0
 
 /* Samples that hats of a width see along one direction, summed over the hats with a pole between `low` and `high`,
  * those that may move. */

@@ -25,14 +25,15 @@
 
 /* shape: NET_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE numbers a sample along u, then along v. samples
  * [group][line][sample][NET_SAMPLE_SIZE], arrays [group][NET_ARRAY_COUNT][poles], settings
- * [group][NET_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: NET_STATE_COUNT
- * nets of real a group. sums: a real a line. gathered: two reals a work-item. */
+ * [group][NET_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. kept
+ * [group][line][sample][NET_KEPT_SIZE], like the samples too much for local memory. room: NET_STATE_COUNT nets
+ * of real a group. sums: a real a line. gathered: two reals a work-item. */
 kernel void net_search(global const int *shape, global const int *first_u,
                        global const int *first_v, global const int *colours,
                        global const int *directions, global const int *members,
                        global const scalar *heights, global const scalar *tables,
                        global const real *samples, global real *arrays, global const real *settings,
-                       global real *outcome, STATE real *room, local real *sums,
+                       global real *outcome, global real *kept, STATE real *room, local real *sums,
                        local real *gathered)
 {
 	const size_t group = get_group_id(0);
@@ -52,7 +53,8 @@ kernel void net_search(global const int *shape, global const int *first_u,
 	s.y = room;
 	s.base = room + s.nodes;
 	s.trial = room + 2 * s.nodes;
-	s.ways = room + 3 * s.nodes;
+	s.moves = s.trial;
+	s.ways = room + 4 * s.nodes;
 	s.lower = arrays + NET_ARRAY_LOWER * s.nodes;
 	s.upper = arrays + NET_ARRAY_UPPER * s.nodes;
 	s.first_u = first_u;
@@ -64,6 +66,7 @@ kernel void net_search(global const int *shape, global const int *first_u,
 	s.members = members;
 	s.heights = heights;
 	s.samples = samples + group * (size_t)(s.lines * s.length) * (size_t)NET_SAMPLE_NUMBERS;
+	s.kept = kept + group * (size_t)(s.lines * s.length) * (size_t)NET_KEPT_NUMBERS;
 	s.sums = sums;
 	s.rounding = settings[NET_SETTING_ROUNDING];
 	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays,

@@ -143,6 +143,10 @@ static bool add_direction(builder *b, const hat *h)
 		return false;
 	if (!can_move(b, h))
 		return true;
+	direction[NET_DIRECTION_COLUMN] = (int32_t)columns[0];
+	direction[NET_DIRECTION_COLUMN_END] = (int32_t)columns[1] + 1;
+	direction[NET_DIRECTION_ROW] = (int32_t)rows[0];
+	direction[NET_DIRECTION_ROW_END] = (int32_t)rows[1] + 1;
 	direction[NET_DIRECTION_FIRST] = (int32_t)made->member_count;
 	direction[NET_DIRECTION_END] = (int32_t)(made->member_count + count);
 	if (!b->counting) {

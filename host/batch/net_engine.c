@@ -52,7 +52,8 @@ size_t net_engine_block(const batch_engine *engine, const net_plan *plan)
 	const size_t lane_bytes = engine->recipe.lanes *
 	                          batch_engine_number_size(engine->recipe.precision);
 	const size_t poles = (NET_ARRAY_COUNT + NET_STATE_COUNT) * net_plan_poles(plan);
-	const size_t group_bytes = (net_pack_sample_count(plan) + poles) * lane_bytes;
+	const size_t group_bytes = (net_pack_sample_count(plan) + net_pack_kept_count(plan) + poles) *
+	                           lane_bytes;
 	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
@@ -65,7 +66,8 @@ typedef struct block {
 	void *tables, *heights, *samples, *arrays, *settings, *outcome;
 	net_room *rooms;
 	device_buffer *shape_on, *first_u_on, *first_v_on, *colours_on, *directions_on, *members_on,
-		*heights_on, *tables_on, *samples_on, *arrays_on, *settings_on, *outcome_on, *state_on;
+		*heights_on, *tables_on, *samples_on, *arrays_on, *settings_on, *outcome_on, *kept_on,
+		*state_on;
 	size_t groups, lanes, number;
 	size_t samples_size, arrays_size, settings_size, outcome_size; /* bytes of one group */
 	int32_t shape[NET_SHAPE_SIZE];
@@ -76,7 +78,7 @@ static void block_release(const batch_engine *engine, block *b)
 	device_buffer *buffers[] = { b->shape_on,      b->first_u_on, b->first_v_on,  b->colours_on,
 		                         b->directions_on, b->members_on, b->heights_on,  b->tables_on,
 		                         b->samples_on,    b->arrays_on,  b->settings_on, b->outcome_on,
-		                         b->state_on };
+		                         b->kept_on,       b->state_on };
 	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
 		device_buffer_destroy(buffers[i]);
 	void *memory[] = { b->tables,   b->heights, b->samples, b->arrays,
@@ -144,6 +146,7 @@ static batten_status block_upload(const batch_engine *engine, const net_plan *pl
 		{ &b->arrays_on, b->groups * b->arrays_size, b->arrays },
 		{ &b->settings_on, b->groups * b->settings_size, b->settings },
 		{ &b->outcome_on, b->groups * b->outcome_size, NULL },
+		{ &b->kept_on, b->groups * net_pack_kept_count(plan) * b->lanes * b->number, NULL },
 		{ &b->state_on, global ? state : 0, NULL },
 	};
 	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
@@ -167,6 +170,7 @@ static batten_status block_launch(const batch_engine *engine, const net_plan *pl
 		{ .buffer = b->arrays_on },
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcome_on },
+		{ .buffer = b->kept_on },
 		{ .buffer = b->state_on, .size = b->state_on ? 0 : state },
 		{ .size = plan->v.count * lane_bytes },
 		{ .size = 2 * group * lane_bytes },

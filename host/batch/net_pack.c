@@ -66,6 +66,13 @@ size_t net_pack_sample_count(const net_plan *plan)
 	return plan->u.count * plan->v.count * net_plan_sample_size(plan);
 }
 
+size_t net_pack_kept_count(const net_plan *plan)
+{
+	const size_t numbers = plan->fairness == NET_FAIRNESS_VARIATION ? NET_KEPT_SIZE_THIRD
+	                                                                : NET_KEPT_SIZE;
+	return plan->u.count * plan->v.count * numbers;
+}
+
 /* x, the start's y, z and the target's y: the fields of a sample. */
 enum { FIELD_X, FIELD_START, FIELD_Z, FIELD_TARGET, FIELD_COUNT };
 

@@ -15,6 +15,9 @@ void net_pack_heights(const net_plan *plan, void *heights);
 /* Numbers of one search's samples. */
 size_t net_pack_sample_count(const net_plan *plan);
 
+/* Numbers kept of one search's samples while it goes on. */
+size_t net_pack_kept_count(const net_plan *plan);
+
 /* Writes search `which` into a lane of samples, arrays [NET_ARRAY_COUNT][poles][lanes] and settings
  * [NET_SETTING_COUNT][lanes], all zero before. A lane left at zero is idle. rooms has one a pole. */
 void net_pack(const net_plan *plan, size_t which, size_t lane, size_t lanes, void *samples,

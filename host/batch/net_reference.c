@@ -13,9 +13,10 @@ batten_status net_reference_create(const net_plan *plan, net_reference *out)
 	r.heights = batten_allocate(context, plan->directions.member_count + 1, number);
 	r.samples = batten_allocate(context, net_pack_sample_count(plan), number);
 	r.arrays = batten_allocate(context, poles, NET_ARRAY_COUNT * number);
+	r.kept = batten_allocate(context, net_pack_kept_count(plan), number);
 	r.scratch = batten_allocate(context, NET_STATE_COUNT * poles + plan->v.count, number);
 	r.rooms = batten_allocate(context, poles, sizeof *r.rooms);
-	if (!r.tables || !r.heights || !r.samples || !r.arrays || !r.scratch || !r.rooms) {
+	if (!r.tables || !r.heights || !r.samples || !r.arrays || !r.kept || !r.scratch || !r.rooms) {
 		net_reference_release(&r);
 		return BATTEN_MEMORY;
 	}
@@ -34,6 +35,7 @@ void net_reference_release(net_reference *reference)
 	batten_release(context, reference->heights);
 	batten_release(context, reference->samples);
 	batten_release(context, reference->arrays);
+	batten_release(context, reference->kept);
 	batten_release(context, reference->scratch);
 	batten_release(context, reference->rooms);
 	*reference = (net_reference){ 0 };
@@ -65,9 +67,11 @@ void net_reference_run(net_reference *reference, size_t which)
 	net_pack(plan, which, 0, 1, reference->samples, reference->arrays, &settings, reference->rooms);
 	if (plan->options.precision == BATTEN_F64)
 		reference_net_search_f64(&shared, reference->tables, reference->heights, reference->samples,
-		                         reference->arrays, settings.f64, outcome.f64, reference->scratch);
+		                         reference->arrays, settings.f64, outcome.f64, reference->kept,
+		                         reference->scratch);
 	else
 		reference_net_search_f32(&shared, reference->tables, reference->heights, reference->samples,
-		                         reference->arrays, settings.f32, outcome.f32, reference->scratch);
+		                         reference->arrays, settings.f32, outcome.f32, reference->kept,
+		                         reference->scratch);
 	net_unpack(plan, which, 0, 1, reference->arrays, &outcome, reference->rooms);
 }

@@ -7,7 +7,7 @@
 /* Room for one search at a time in the plan's precision. */
 typedef struct net_reference {
 	const net_plan *plan;
-	void *tables, *heights, *samples, *arrays, *scratch;
+	void *tables, *heights, *samples, *arrays, *kept, *scratch;
 	net_room *rooms;
 } net_reference;
 

@@ -14,13 +14,14 @@ typedef struct reference_net_search {
 } reference_net_search;
 
 /* tables: NET_TABLE_SIZE(order_u) a sample along u, then of v. arrays [NET_ARRAY_COUNT][poles],
- * settings [NET_SETTING_COUNT], outcome [SEARCH_OUTCOME_COUNT]; scratch has room for NET_STATE_COUNT
- * nets and a number a line. */
+ * settings [NET_SETTING_COUNT], outcome [SEARCH_OUTCOME_COUNT]; kept has room for NET_KEPT_SIZE (_THIRD) numbers
+ * a sample, scratch for NET_STATE_COUNT nets and a number a line. */
 void reference_net_search_f64(const reference_net_search *shared, const double *tables,
                               const double *heights, const double *samples, double *arrays,
-                              const double *settings, double *outcome, double *scratch);
+                              const double *settings, double *outcome, double *kept,
+                              double *scratch);
 void reference_net_search_f32(const reference_net_search *shared, const float *tables,
                               const float *heights, const float *samples, float *arrays,
-                              const float *settings, float *outcome, float *scratch);
+                              const float *settings, float *outcome, float *kept, float *scratch);
 
 #endif

@@ -21,7 +21,7 @@
 
 INLINED void work_search(const reference_net_search *shared, const scalar *tables,
                          const scalar *heights, const scalar *samples, scalar *arrays,
-                         const scalar *settings, scalar *outcome, scalar *scratch)
+                         const scalar *settings, scalar *outcome, scalar *kept, scalar *scratch)
 {
 	const int32_t *shape = shared->shape;
 	const int nodes = shape[NET_SHAPE_COLUMNS] * shape[NET_SHAPE_ROWS];
@@ -48,8 +48,10 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 		.members = shared->members,
 		.heights = heights,
 		.samples = samples,
-		.ways = scratch + 3 * (size_t)nodes,
+		.moves = scratch + 2 * (size_t)nodes,
+		.ways = scratch + 4 * (size_t)nodes,
 		.sums = scratch + NET_STATE_COUNT * (size_t)nodes,
+		.kept = kept,
 		.rounding = settings[NET_SETTING_ROUNDING],
 	};
 	scalar gathered[2];
@@ -60,21 +62,21 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 __attribute__((target("avx2,fma"))) static void
 work_with_fma(const reference_net_search *shared, const scalar *tables, const scalar *heights,
               const scalar *samples, scalar *arrays, const scalar *settings, scalar *outcome,
-              scalar *scratch)
+              scalar *kept, scalar *scratch)
 {
-	work_search(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+	work_search(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
 }
 #endif
 
 void NET_SEARCH_FUNCTION(const reference_net_search *shared, const scalar *tables,
                          const scalar *heights, const scalar *samples, scalar *arrays,
-                         const scalar *settings, scalar *outcome, scalar *scratch)
+                         const scalar *settings, scalar *outcome, scalar *kept, scalar *scratch)
 {
 #if defined(__x86_64__)
 	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+		work_with_fma(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
 		return;
 	}
 #endif
-	work_search(shared, tables, heights, samples, arrays, settings, outcome, scratch);
+	work_search(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
 }

@@ -14,6 +14,7 @@
 
 #define NET_THIRD (NET_FAIRNESS == NET_FAIRNESS_VARIATION)
 #define NET_SAMPLE_NUMBERS (NET_THIRD ? NET_SAMPLE_SIZE_THIRD : NET_SAMPLE_SIZE)
+#define NET_KEPT_NUMBERS (NET_THIRD ? NET_KEPT_SIZE_THIRD : NET_KEPT_SIZE)
 
 typedef struct search_state {
 	int nodes;         /* poles */
@@ -22,20 +23,17 @@ typedef struct search_state {
 	int colour_count, wide_colours;
 	int order_u, order_v, fairness;
 	STATE real *y, *base, *trial, *ways; /* [v][u] */
+	STATE real *moves; /* of the poles, by one probe and another: trial and the net after it */
 	GLOBAL const real *lower, *upper;
 	GLOBAL const int *first_u, *first_v; /* the first pole a sample sees */
 	GLOBAL const scalar *table_u, *table_v;
 	GLOBAL const int *colours, *directions, *members; /* members: numbers of poles */
 	GLOBAL const scalar *heights;                     /* of the members */
-	GLOBAL const real *samples;                       /* [line][sample][NET_SAMPLE_SIZE] */
+	GLOBAL const real *samples;                       /* [line][sample][NET_SAMPLE_NUMBERS] */
+	GLOBAL real *kept;                                /* [line][sample][NET_KEPT_NUMBERS] */
 	LOCAL real *sums;                                 /* one a line */
 	real rounding, wide_probes;
 } search_state;
-
-typedef struct search_move {
-	int first, end, line, line_end, sample, sample_end;
-	real step;
-} search_move;
 
 /* The way from the target and its derivatives at a sample. */
 typedef struct net_jet {
@@ -47,13 +45,14 @@ typedef struct net_pole {
 	real derivative[4];
 } net_pole;
 
-SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE real *column,
-                                      GLOBAL const scalar *table)
+/* Its poles first to end - 1 of those that the line sees. */
+SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE real *column, int first,
+                                      int end, GLOBAL const scalar *table)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	net_pole pole = { { zero, zero, zero, zero } };
 	ROLLED
-	for (int a = 0; a < NET_ORDER_V; a++) {
+	for (int a = first; a < end; a++) {
 		const real y = column[a * s->columns];
 		pole.derivative[0] = FUSED(SPREAD(table[a]), y, pole.derivative[0]);
 		pole.derivative[1] = FUSED(SPREAD(table[NET_ORDER_V + a]), y, pole.derivative[1]);
@@ -64,34 +63,61 @@ SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE real *c
 	return pole;
 }
 
-/* The poles of a line are kept in a ring: column c in place c % order. */
-SHARED_FUNCTION net_jet net_jet_of(const search_state *s, const net_pole *ring, int first,
-                                   GLOBAL const scalar *table)
+/* Adds pole number b of those that a sample sees along u. */
+SHARED_FUNCTION void net_jet_add(const search_state *s, net_jet *j, const net_pole *pole, int b,
+                                 GLOBAL const scalar *table)
+{
+	const real t0 = SPREAD(table[b]);
+	const real t1 = SPREAD(table[NET_ORDER_U + b]);
+	const real t2 = SPREAD(table[2 * NET_ORDER_U + b]);
+	(void)s; /* OpenCL knows the order without it */
+	j->at = FUSED(t0, pole->derivative[0], j->at);
+	j->u = FUSED(t1, pole->derivative[0], j->u);
+	j->v = FUSED(t0, pole->derivative[1], j->v);
+	j->uu = FUSED(t2, pole->derivative[0], j->uu);
+	j->uv = FUSED(t1, pole->derivative[1], j->uv);
+	j->vv = FUSED(t0, pole->derivative[2], j->vv);
+	if (NET_THIRD) {
+		const real t3 = SPREAD(table[3 * NET_ORDER_U + b]);
+		j->uuu = FUSED(t3, pole->derivative[0], j->uuu);
+		j->uuv = FUSED(t2, pole->derivative[1], j->uuv);
+		j->uvv = FUSED(t1, pole->derivative[2], j->uvv);
+		j->vvv = FUSED(t0, pole->derivative[3], j->vvv);
+	}
+}
+
+SHARED_FUNCTION net_jet net_jet_kept(const search_state *s, GLOBAL const real *kept)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	net_jet j = { zero, zero, zero, zero, zero, zero, zero, zero, zero, zero };
-	(void)s; /* OpenCL knows the order without it */
-	ROLLED
-	for (int b = 0; b < NET_ORDER_U; b++) {
-		const net_pole *pole = ring + (first + b) % NET_ORDER_U;
-		const real t0 = SPREAD(table[b]);
-		const real t1 = SPREAD(table[NET_ORDER_U + b]);
-		const real t2 = SPREAD(table[2 * NET_ORDER_U + b]);
-		j.at = FUSED(t0, pole->derivative[0], j.at);
-		j.u = FUSED(t1, pole->derivative[0], j.u);
-		j.v = FUSED(t0, pole->derivative[1], j.v);
-		j.uu = FUSED(t2, pole->derivative[0], j.uu);
-		j.uv = FUSED(t1, pole->derivative[1], j.uv);
-		j.vv = FUSED(t0, pole->derivative[2], j.vv);
-		if (NET_THIRD) {
-			const real t3 = SPREAD(table[3 * NET_ORDER_U + b]);
-			j.uuu = FUSED(t3, pole->derivative[0], j.uuu);
-			j.uuv = FUSED(t2, pole->derivative[1], j.uuv);
-			j.uvv = FUSED(t1, pole->derivative[2], j.uvv);
-			j.vvv = FUSED(t0, pole->derivative[3], j.vvv);
-		}
-	}
+	const net_jet j = { kept[NET_KEPT_JET],
+		                kept[NET_KEPT_JET + 1],
+		                kept[NET_KEPT_JET + 2],
+		                kept[NET_KEPT_JET + 3],
+		                kept[NET_KEPT_JET + 4],
+		                kept[NET_KEPT_JET + 5],
+		                NET_THIRD ? kept[NET_KEPT_JET + 6] : zero,
+		                NET_THIRD ? kept[NET_KEPT_JET + 7] : zero,
+		                NET_THIRD ? kept[NET_KEPT_JET + 8] : zero,
+		                NET_THIRD ? kept[NET_KEPT_JET + 9] : zero };
+	(void)s;
 	return j;
+}
+
+SHARED_FUNCTION void net_jet_keep(const search_state *s, GLOBAL real *kept, const net_jet *j)
+{
+	(void)s;
+	kept[NET_KEPT_JET] = j->at;
+	kept[NET_KEPT_JET + 1] = j->u;
+	kept[NET_KEPT_JET + 2] = j->v;
+	kept[NET_KEPT_JET + 3] = j->uu;
+	kept[NET_KEPT_JET + 4] = j->uv;
+	kept[NET_KEPT_JET + 5] = j->vv;
+	if (NET_THIRD) {
+		kept[NET_KEPT_JET + 6] = j->uuu;
+		kept[NET_KEPT_JET + 7] = j->uuv;
+		kept[NET_KEPT_JET + 8] = j->uvv;
+		kept[NET_KEPT_JET + 9] = j->vvv;
+	}
 }
 
 SHARED_FUNCTION surface_triple net_triple(GLOBAL const real *sample, int x, int z, int target,
@@ -166,7 +192,9 @@ SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const re
 	real density;
 	if (NET_THIRD) {
 		const surface_shape shape = surface_shape_of(j, zero);
-		density = surface_variation_of(j, net_surface_third(sample, d), shape).density * shape.area;
+		/* Umbilic points count too: a search would make points umbilic to be rid of them. */
+		const surface_variation v = surface_variation_of(j, net_surface_third(sample, d), shape);
+		density = v.any_density * shape.area;
 	} else {
 		density = net_density(s, j);
 	}
@@ -174,54 +202,52 @@ SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const re
 	return FUSED(sample[NET_SAMPLE_CLOSE] * d.at, d.at, CHOOSE(fair > zero, energy, zero));
 }
 
-/* Samples sample .. sample_end of one line with the net y. */
+/* The samples of one line with the net y. Where it `keeps`, terms and derivatives are. */
 SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real *y, int line,
-                                        int sample, int sample_end)
+                                        int keeps)
 {
-	const int size = NET_SAMPLE_NUMBERS;
+	const real zero = SPREAD(LITERAL(0.0));
 	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
-	GLOBAL const real *at = s->samples + (size_t)(line * s->length) * (size_t)size;
+	GLOBAL const scalar *along = s->table_u;
+	GLOBAL const real *sample = s->samples +
+	                            (size_t)(line * s->length) * (size_t)NET_SAMPLE_NUMBERS;
+	GLOBAL real *kept = s->kept + (size_t)(line * s->length) * (size_t)NET_KEPT_NUMBERS;
 	const STATE real *row = y + s->first_v[line] * s->columns;
+	/* Column c is in place c % order. */
 	net_pole ring[NET_ORDER_MOST];
-	real sum = SPREAD(LITERAL(0.0));
-	int reached = s->first_u[sample];
+	real sum = zero;
+	int reached = 0;
 	ROLLED
-	for (int i = sample; i < sample_end; i++) {
+	for (int i = 0; i < s->length; i++) {
 		const int first = s->first_u[i];
 		ROLLED
 		for (; reached < first + NET_ORDER_U; reached++)
-			ring[reached % NET_ORDER_U] = net_collapse(s, row + reached, table);
-		const net_jet d = net_jet_of(s, ring, first, s->table_u + i * NET_TABLE_SIZE(NET_ORDER_U));
-		sum += net_sample_objective(s, at + (size_t)i * (size_t)size, d);
+			ring[reached % NET_ORDER_U] = net_collapse(s, row + reached, 0, NET_ORDER_V, table);
+		net_jet j = { zero, zero, zero, zero, zero, zero, zero, zero, zero, zero };
+		ROLLED
+		for (int b = 0; b < NET_ORDER_U; b++)
+			net_jet_add(s, &j, ring + (first + b) % NET_ORDER_U, b, along);
+		const real term = net_sample_objective(s, sample, j);
+		if (keeps) {
+			kept[NET_KEPT_TERM] = term;
+			net_jet_keep(s, kept, &j);
+		}
+		sum += term;
+		along += NET_TABLE_SIZE(NET_ORDER_U);
+		sample += NET_SAMPLE_NUMBERS;
+		kept += NET_KEPT_NUMBERS;
 	}
 	return sum;
 }
 
 /* ------------------------------------------------------------------------------------------------
- * What search_moves.h asks for
+ * What search_sweep.h and search_ways.h ask for
  * --------------------------------------------------------------------------------------------- */
 
 SHARED_FUNCTION void colour_range(const search_state *s, int colour, int *first, int *end)
 {
 	*first = s->colours[colour];
 	*end = s->colours[colour + 1];
-}
-
-/* A direction's poles are moved in place, from where they were, kept in trial: no other direction of
- * its colour reads them. */
-SHARED_FUNCTION void move_begin(const search_state *s, int colour, int direction, search_move *move)
-{
-	GLOBAL const int *d = s->directions + direction * NET_DIRECTION_SIZE;
-	(void)colour;
-	move->first = d[NET_DIRECTION_FIRST];
-	move->end = d[NET_DIRECTION_END];
-	move->line = d[NET_DIRECTION_LINE];
-	move->line_end = d[NET_DIRECTION_LINE_END];
-	move->sample = d[NET_DIRECTION_SAMPLE];
-	move->sample_end = d[NET_DIRECTION_SAMPLE_END];
-	ROLLED
-	for (int m = move->first; m < move->end; m++)
-		s->trial[s->members[m]] = s->y[s->members[m]];
 }
 
 /* Where a step leads from y in a box. */
@@ -231,31 +257,11 @@ SHARED_FUNCTION real step_from(const search_state *s, real y, real step, real lo
 	return move_clamped(y, step, lower, upper);
 }
 
-SHARED_FUNCTION void move_end(const search_state *s, const search_move *move)
-{
-	ROLLED
-	for (int m = move->first; m < move->end; m++) {
-		const int n = s->members[m];
-		s->y[n] = move_clamped(s->trial[n], SPREAD(s->heights[m]) * move->step, s->lower[n],
-		                       s->upper[n]);
-	}
-}
-
-SHARED_FUNCTION real move_objective(const search_state *s, const search_move *move)
-{
-	real sum = SPREAD(LITERAL(0.0));
-	move_end(s, move);
-	ROLLED
-	for (int line = move->line; line < move->line_end; line++)
-		sum += net_line_objective(s, s->y, line, move->sample, move->sample_end);
-	return sum;
-}
-
 SHARED_FUNCTION real whole_objective(const search_state *s)
 {
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		s->sums[line] = net_line_objective(s, s->trial, line, 0, s->length);
+		s->sums[line] = net_line_objective(s, s->trial, line, 0);
 	WAIT;
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
@@ -265,20 +271,15 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 	return sum;
 }
 
-/* Moves call the objective. */
-#include "search_moves.h"
-
-SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int direction, real h,
-                                       real *extra)
-{
-	search_move move;
-	move_begin(s, colour, direction, &move);
-	return search_explore(s, &move, h, extra);
-}
-
+/* Terms and derivatives at y, anew once an iteration: what moves add to them is rounded. */
 SHARED_FUNCTION void sweeps_begin(const search_state *s)
 {
-	(void)s;
+	ROLLED
+	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+		(void)net_line_objective(s, s->y, line, 1);
+	WAIT;
 }
+
+#include "net_moves.h"
 
 #endif

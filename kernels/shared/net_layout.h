@@ -32,8 +32,8 @@ enum {
 	NET_ARRAY_COUNT
 };
 
-/* Nets of working state: y, base, trial and the remembered ways. */
-#define NET_STATE_COUNT (3 + NET_WAYS - 1)
+/* Nets of working state: y, base, trial, moves of a second probe and the remembered ways. */
+#define NET_STATE_COUNT (4 + NET_WAYS - 1)
 
 /* One value a search each, beyond SEARCH_SETTING_COUNT. */
 enum {
@@ -57,6 +57,17 @@ enum {
 	NET_SAMPLE_SIZE_THIRD = 29
 };
 
+/* What is kept of a sample while a search goes on: its term of the objective at y, that of the last probe; the
+ * way from the target at y and its derivatives by u, v, uu, uv, vv, and uuu, uuv, uvv, vvv where the variation
+ * of curvature asks for them. */
+enum {
+	NET_KEPT_TERM,
+	NET_KEPT_FOUND,
+	NET_KEPT_JET,
+	NET_KEPT_SIZE = NET_KEPT_JET + 6,
+	NET_KEPT_SIZE_THIRD = NET_KEPT_JET + 10
+};
+
 /* One sample of a direction in its table: `order` values of the basis and of its first, second and
  * third derivative, and the weight in an integral. */
 #define NET_TABLE_SIZE(order) (4 * (order) + 1)
@@ -65,6 +76,10 @@ enum {
 enum {
 	NET_DIRECTION_FIRST, /* of the members */
 	NET_DIRECTION_END,
+	NET_DIRECTION_COLUMN, /* the rectangle its poles lie in */
+	NET_DIRECTION_COLUMN_END,
+	NET_DIRECTION_ROW,
+	NET_DIRECTION_ROW_END,
 	NET_DIRECTION_LINE,
 	NET_DIRECTION_LINE_END,
 	NET_DIRECTION_SAMPLE,

@@ -36,6 +36,7 @@ typedef struct surface_weight_third {
 typedef struct surface_variation {
 	real along_1, along_2; /* dk1/de1 and dk2/de2, k1 >= k2; the sign is that of e, any */
 	real density;          /* the sum of their squares */
+	real any_density; /* the same, at an umbilic point along any two directions at right angles */
 	mask known;
 } surface_variation;
 
@@ -173,7 +174,9 @@ SHARED_FUNCTION surface_variation surface_variation_of(surface_jet j, surface_th
 	const real along_2 = surface_cubic_along(c, axes.second);
 	const real density = FUSED(along_1, along_1, along_2 * along_2);
 	surface_variation v;
-	v.known = axes.apart & (density - density == zero);
+	const mask finite = s.regular & (density - density == zero);
+	v.any_density = CHOOSE(finite, density, zero);
+	v.known = axes.apart & finite;
 	v.along_1 = CHOOSE(v.known, along_1, zero);
 	v.along_2 = CHOOSE(v.known, along_2, zero);
 	v.density = CHOOSE(v.known, density, zero);
