@@ -35,11 +35,13 @@ SHARED_FUNCTION void net_move_begin(const search_state *s, int direction, net_mo
 	move->sample = d[NET_DIRECTION_SAMPLE];
 	move->sample_end = d[NET_DIRECTION_SAMPLE_END];
 	ROLLED
-	for (int k = move->row; k < move->row_end; k++)
+	for (int k = move->row; k < move->row_end; k++) {
 		ROLLED
-	for (int i = move->column; i < move->column_end; i++)
-		s->moves[k * s->columns + i] = s->moves[s->nodes + k * s->columns + i] = SPREAD(
-			LITERAL(0.0));
+		for (int i = move->column; i < move->column_end; i++) {
+			s->moves[k * s->columns + i] = SPREAD(LITERAL(0.0));
+			s->moves[s->nodes + k * s->columns + i] = SPREAD(LITERAL(0.0));
+		}
+	}
 }
 
 /* Where a step leads a member. */
@@ -100,11 +102,13 @@ SHARED_FUNCTION void net_move_line(const search_state *s, const net_move *move, 
 		const int end = first + NET_ORDER_U < move->column_end ? first + NET_ORDER_U
 		                                                       : move->column_end;
 		ROLLED
-		for (; reached < end; reached++)
+		for (; reached < end; reached++) {
 			ROLLED
-		for (int p = 0; p < probes; p++)
-			ring[reached % NET_ORDER_U * NET_PROBES + p] = net_collapse(
-				s, s->moves + p * s->nodes + row * s->columns + reached, first_row, end_row, table);
+			for (int p = 0; p < probes; p++)
+				ring[reached % NET_ORDER_U * NET_PROBES + p] = net_collapse(
+					s, s->moves + p * s->nodes + row * s->columns + reached, first_row, end_row,
+					table);
+		}
 		ROLLED
 		for (int p = 0; p < probes; p++) {
 			net_jet j = net_jet_kept(s, kept);
