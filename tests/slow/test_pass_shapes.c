@@ -1,4 +1,5 @@
 /* Passes in other shapes than the usual one: lanes and work-items change no bit of a hull. */
+#include "support/kernel_compile.h"
 #include "unit/pass_fixture.h"
 
 enum { HULLS = 37, ITERATIONS = 2 };
@@ -24,6 +25,7 @@ static void test_shapes(void **state)
 {
 	static const unsigned shapes[][2] = { { 1, 4 }, { 4, 3 }, { 8, 1 } };
 	batten_hull *hull = read_hull(*state, "npl_parent");
+	kernels_unoptimised(true);
 	for (int m = BATTEN_METHOD_FORWARD_APPROXIMATION; m <= BATTEN_METHOD_INVERSE; m++) {
 		batten_pass *plain = make_pass(*state, hull, m, BATTEN_DEVICE_REFERENCE, 0, 0);
 		const size_t values = batten_pass_describe(plain).value_count;

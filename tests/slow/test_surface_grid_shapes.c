@@ -1,5 +1,6 @@
 /* Batches of surfaces in every shape of the kernel, lanes and work-items, orders 2 to 8, rational or
  * not, both precisions, equal the C path bit for bit. */
+#include "support/kernel_compile.h"
 #include "support/surface_case.h"
 
 #include <setjmp.h>
@@ -23,6 +24,7 @@ static void check(size_t order_u, size_t order_v, bool rational, batten_precisio
 static void test_lanes(void **state)
 {
 	(void)state;
+	kernels_unoptimised(true);
 	check(4, 3, false, BATTEN_F64, 1, 1);
 	check(4, 3, true, BATTEN_F64, 2, 1);
 	check(4, 3, false, BATTEN_F64, 16, 1);
@@ -33,6 +35,7 @@ static void test_lanes(void **state)
 static void test_work_groups(void **state)
 {
 	(void)state;
+	kernels_unoptimised(true);
 	check(3, 4, false, BATTEN_F64, 1, 7);
 	check(3, 4, true, BATTEN_F64, 1, 64);
 	check(3, 4, false, BATTEN_F64, 4, 3);
@@ -42,6 +45,7 @@ static void test_work_groups(void **state)
 static void test_orders(void **state)
 {
 	(void)state;
+	kernels_unoptimised(false);
 	check(2, 8, true, BATTEN_F64, 0, 0);
 	check(5, 5, false, BATTEN_F64, 0, 0);
 	check(6, 4, false, BATTEN_F32, 0, 0);

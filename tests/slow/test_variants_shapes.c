@@ -1,5 +1,6 @@
 /* Variants and their hydrostatics in every number of lanes, and with work-items that share a hull: the
  * bits of the C path, failing rows and parallel bodies among them. */
+#include "support/kernel_compile.h"
 #include "unit/vary_fixture.h"
 
 enum { ROWS = 35, DRAFTS = 3, NODES = 150 };
@@ -50,6 +51,7 @@ static void test_every_shape(void **state)
 	batten_hull *parent = read_hull(*state, "bsra_trawler");
 	assert_int_equal(batten_hull_station_count(parent) * batten_hull_waterline_count(parent),
 	                 NODES);
+	kernels_unoptimised(true);
 	struct batch *known = calloc(1, sizeof *known);
 	assert_non_null(known);
 	run(*state, parent, BATTEN_DEVICE_REFERENCE, 0, 0, known);

@@ -1,5 +1,7 @@
 #include "support/search_equal.h"
 
+#include "support/kernel_compile.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,15 +75,9 @@ static double *room_for_all(const search_case *c)
 	return numbers;
 }
 
-void search_equal_compile(unsigned work_group)
-{
-	static const char name[] = "POCL_EXTRA_BUILD_FLAGS";
-	assert_int_equal(work_group > 1 ? setenv(name, "-cl-opt-disable", 1) : unsetenv(name), 0);
-}
-
 void search_equal_check(const search_case *c, const search_shape *shape)
 {
-	search_equal_compile(shape->work_group);
+	kernels_unoptimised(shape->work_group > 1);
 	batten_search_problem problems[EQUAL_COUNT];
 	batten_search_result results[EQUAL_COUNT];
 	batten_search_result known[EQUAL_COUNT];
@@ -105,7 +101,7 @@ void search_equal_check(const search_case *c, const search_shape *shape)
 void search_equal_penalised(const search_case *c, batten_precision precision, unsigned lanes,
                             unsigned work_group)
 {
-	search_equal_compile(work_group);
+	kernels_unoptimised(work_group > 1);
 	batten_search_problem problems[EQUAL_COUNT];
 	batten_search_result results[EQUAL_COUNT], known[EQUAL_COUNT];
 	double *y = room_for_all(c);

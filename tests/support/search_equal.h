@@ -8,10 +8,6 @@
 
 enum { EQUAL_COUNT = 19 }; /* searches of a case: two groups of eight lanes and some */
 
-/* From now on PoCL compiles without optimising where a group has several work-items, which is the shape of a GPU:
- * it takes half a minute over such a kernel, and what its optimiser makes of one says nothing of a GPU's. */
-void search_equal_compile(unsigned work_group);
-
 /* Weights w2/w1 from 10 to 4e6, one a search. */
 void search_equal_problems(const search_case *c, batten_search_problem problems[EQUAL_COUNT]);
 
