@@ -11,6 +11,7 @@
 #define BLOCK_ANALYTIC 0
 #endif
 #define BATTEN_DIALECT_OPENCL
+#include "shared/block_grid.h"
 #include "shared/block_lanes.h"
 #include "shared/dialect.h"
 

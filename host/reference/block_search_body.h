@@ -6,6 +6,8 @@
 #define BLOCK_ANALYTIC (s->analytic)
 #include "shared/dialect.h"
 
+#include "shared/block_grid.h"
+/* The course last: it calls these. */
 #include "shared/block_lanes.h"
 
 void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *stencils,

@@ -7,31 +7,13 @@
 #ifndef BATTEN_SHARED_BLOCK_HATS_H
 #define BATTEN_SHARED_BLOCK_HATS_H
 
+#include "block_band.h"
 #include "block_lines.h"
 
-/* A pivot below this part of its diagonal is rounding. */
-#if BATTEN_DOUBLE
-#define BLOCK_PIVOT_FLOOR LITERAL(1e-11)
-#else
-#define BLOCK_PIVOT_FLOOR LITERAL(1e-5)
-#endif
-
-/* What holds a search where it is: diagonals are raised by a part of them and by a weight. */
-typedef struct block_stay {
-	real part, weight;
-} block_stay;
-
-/* A table of hats: rows of `band` numbers, the diagonal first; the inverses of the pivots take its place
- * when it is factored. way: a number a row. */
-typedef struct block_hat_table {
-	STATE real *rows, *way;
-	int count, band;
-} block_hat_table;
-
 /* All hats coupled. */
-SHARED_FUNCTION block_hat_table block_hats_whole(const block_state *s)
+SHARED_FUNCTION block_band block_hats_whole(const block_state *s)
 {
-	block_hat_table table;
+	block_band table;
 	table.count = s->lines * s->hats;
 	table.band = BLOCK_HAT_BAND(s->hats);
 	table.rows = s->hat_rows;
@@ -40,9 +22,9 @@ SHARED_FUNCTION block_hat_table block_hats_whole(const block_state *s)
 }
 
 /* The lines apart. */
-SHARED_FUNCTION block_hat_table block_hats_apart(const block_state *s)
+SHARED_FUNCTION block_band block_hats_apart(const block_state *s)
 {
-	block_hat_table table = block_hats_whole(s);
+	block_band table = block_hats_whole(s);
 	table.rows += table.count * table.band;
 	table.way += table.count;
 	table.band = BLOCK_HATS_MET;
@@ -124,7 +106,7 @@ SHARED_FUNCTION void block_bend_hats(STATE const real *probes, int own, const bl
  * the three they are of. */
 SHARED_FUNCTION void block_gather_hats_around(const block_state *s, int at, int from, int to)
 {
-	const block_hat_table table = block_hats_whole(s);
+	const block_band table = block_hats_whole(s);
 	const STATE real *ring = block_ring(s, at);
 	ROLLED
 	for (int k = 1; k + 1 < s->length; k++) {
@@ -151,7 +133,7 @@ SHARED_FUNCTION void block_gather_hats_around(const block_state *s, int at, int 
 /* Begins a line's rows: closeness and the weight of staying. */
 SHARED_FUNCTION void block_begin_hats(const block_state *s, int line, real weight)
 {
-	const block_hat_table table = block_hats_whole(s);
+	const block_band table = block_hats_whole(s);
 	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
 	STATE real *rows = table.rows + line * s->hats * table.band;
 	ROLLED
@@ -176,8 +158,8 @@ SHARED_FUNCTION void block_begin_hats(const block_state *s, int line, real weigh
 SHARED_FUNCTION void block_end_hats(const block_state *s, int line, real part)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const block_hat_table whole = block_hats_whole(s);
-	const block_hat_table apart = block_hats_apart(s);
+	const block_band whole = block_hats_whole(s);
+	const block_band apart = block_hats_apart(s);
 	ROLLED
 	for (int hat = 0; hat < s->hats; hat++) {
 		const int n = line * s->hats + hat;
@@ -189,54 +171,28 @@ SHARED_FUNCTION void block_end_hats(const block_state *s, int line, real part)
 	}
 }
 
-/* 1 / pivot, 0 where it is rounding: a hat that is held, or depends on those before it, has none. */
-SHARED_FUNCTION real block_hat_inverse(real pivot, real floor)
-{
-	const real zero = SPREAD(LITERAL(0.0));
-	const real one = SPREAD(LITERAL(1.0));
-	const mask has = (pivot > floor) & (pivot > zero);
-	return CHOOSE(has, one / CHOOSE(has, pivot, one), zero);
-}
-
-/* Takes row n out of those below that it couples with, before row `end`, and puts the inverse of its pivot
- * there. */
-SHARED_FUNCTION void block_eliminate_hat(block_hat_table table, int n, int end, real inverse)
-{
-	STATE real *row = table.rows + n * table.band;
-	const int reach = end - n < table.band ? end - n : table.band;
-	ROLLED
-	for (int d = 1; d < reach; d++) {
-		STATE real *below = row + d * (table.band - 1);
-		const real factor = row[d] * inverse;
-		ROLLED
-		for (int e = d; e < reach; e++)
-			below[e] -= factor * row[e];
-	}
-	row[0] = inverse;
-}
-
 /* Factors all rows, by one work-item: each waits for the one before. */
 SHARED_FUNCTION void block_factor_whole(const block_state *s)
 {
-	const block_hat_table whole = block_hats_whole(s);
+	const block_band whole = block_hats_whole(s);
 	ROLLED
 	for (int n = 0; n < whole.count; n++)
-		block_eliminate_hat(whole, n, whole.count,
-		                    block_hat_inverse(whole.rows[n * whole.band], whole.way[n]));
+		block_band_eliminate(whole, n, whole.count,
+		                     block_band_inverse(whole.rows[n * whole.band], whole.way[n]));
 }
 
 /* Factors a line's rows of the lines apart. A hat without a pivot among all has none here. */
 SHARED_FUNCTION void block_factor_apart(const block_state *s, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const block_hat_table whole = block_hats_whole(s);
-	const block_hat_table apart = block_hats_apart(s);
+	const block_band whole = block_hats_whole(s);
+	const block_band apart = block_hats_apart(s);
 	const int end = (line + 1) * s->hats;
 	ROLLED
 	for (int n = line * s->hats; n < end; n++) {
-		const real inverse = block_hat_inverse(apart.rows[n * apart.band], apart.way[n]);
+		const real inverse = block_band_inverse(apart.rows[n * apart.band], apart.way[n]);
 		const mask has = whole.rows[n * whole.band] > zero;
-		block_eliminate_hat(apart, n, end, CHOOSE(has, inverse, zero));
+		block_band_eliminate(apart, n, end, CHOOSE(has, inverse, zero));
 	}
 }
 
@@ -282,30 +238,6 @@ SHARED_FUNCTION void block_explore_hats(const block_state *s, block_stay stay)
 	WAIT;
 }
 
-/* The bottom of a table's parabola in the place of the slopes along its hats. */
-SHARED_FUNCTION void block_solve_hats(block_hat_table table)
-{
-	ROLLED
-	for (int n = 0; n < table.count; n++) {
-		const STATE real *row = table.rows + n * table.band;
-		const int reach = table.count - n < table.band ? table.count - n : table.band;
-		const real part = table.way[n] * row[0];
-		ROLLED
-		for (int d = 1; d < reach; d++)
-			table.way[n + d] -= row[d] * part;
-	}
-	ROLLED
-	for (int n = table.count - 1; n >= 0; n--) {
-		const STATE real *row = table.rows + n * table.band;
-		const int reach = table.count - n < table.band ? table.count - n : table.band;
-		real left = table.way[n];
-		ROLLED
-		for (int d = 1; d < reach; d++)
-			left -= row[d] * table.way[n + d];
-		table.way[n] = left * row[0];
-	}
-}
-
 /* Slopes along a line's hats, less the changes remembered, alpha of each. */
 SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, const real *alpha)
 {
@@ -330,8 +262,8 @@ SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, 
 /* The way of the hats beyond that of the lines. */
 SHARED_FUNCTION void block_choose_hats(const block_state *s, int turn, const real *alpha)
 {
-	const block_hat_table whole = block_hats_whole(s);
-	const block_hat_table apart = block_hats_apart(s);
+	const block_band whole = block_hats_whole(s);
+	const block_band apart = block_hats_apart(s);
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
 		block_slope_hats(s, line, turn, alpha);
@@ -339,7 +271,7 @@ SHARED_FUNCTION void block_choose_hats(const block_state *s, int turn, const rea
 	if (WORK_ITEM == 0) {
 		ROLLED
 		for (int both = 0; both < 2; both++)
-			block_solve_hats(both ? apart : whole);
+			block_band_solve(both ? apart : whole);
 		ROLLED
 		for (int n = 0; n < whole.count; n++)
 			whole.way[n] -= apart.way[n];

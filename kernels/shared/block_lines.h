@@ -23,23 +23,7 @@ SHARED_FUNCTION STATE real *block_array(const block_state *s, int array)
 	return s->arrays + array * s->nodes;
 }
 
-/* The array of a pair of `age` iterations before the newest; arrays go round. */
-SHARED_FUNCTION int block_slot(int turn, int age)
-{
-	return (turn + 2 * BLOCK_MEMORY - 1 - age) % BLOCK_MEMORY;
-}
-
-/* The slope along an offset less the changes remembered, alpha of each. */
-SHARED_FUNCTION real block_slope_left(const block_state *s, int n, int turn, const real *alpha)
-{
-	const real zero = SPREAD(LITERAL(0.0));
-	real left = block_array(s, BLOCK_STATE_SLOPE)[n];
-	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		const real change = block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n];
-		left -= CHOOSE(alpha[m] != zero, alpha[m] * change, zero);
-	}
-	return left;
-}
+#include "block_rows.h"
 
 /* Differences of y at three neighbouring nodes of a line, as a walk along it keeps them: those across
  * the line at the node before, here and at the next, those along it from the node before and to the

@@ -1,11 +1,21 @@
 /* The course of the block search (Hooke and Jeeves, thesis 7.2, with other moves): an exploratory move to
  * the bottom of the parabolas of all lines at once, bent by the moves remembered (limited-memory
  * quasi-Newton form: Nocedal and Wright 7.2), taken where the objective falls, shortened where it does
- * not. Lanes are searches. */
+ * not. Lanes are searches.
+ *
+ * Defined before this is included (block_grid.h), beside what block_rows.h asks for:
+ *   real block_explore(const block_state *, real far, real part, int turn, block_stay)
+ *                      slopes and tables at y, from probes; returns the objective there. part: of the slopes
+ *                      along the first derivatives that count. The products of block_rows.h go into the sums
+ *   void block_solve(const block_state *, int turn, const real *alpha)
+ *                      the bottom of the parabola, slopes less the changes remembered, alpha of each, into the
+ *                      way; its products with the changes into the first BLOCK_MEMORY sums
+ *   real block_trial_objective(const block_state *)
+ *                      the objective at the trial */
 #ifndef BATTEN_SHARED_BLOCK_SEARCH_H
 #define BATTEN_SHARED_BLOCK_SEARCH_H
 
-#include "block_tables.h"
+#include "block_rows.h"
 #include "multilevel.h"
 
 /* A search has ended when the objective fell by less than this part of it BLOCK_CALM times running; or by
@@ -48,58 +58,6 @@ typedef struct block_progress {
 typedef struct block_limits {
 	real longest, last_step, far, iterations;
 } block_limits;
-
-SHARED_FUNCTION real block_total(const block_state *s, int sum)
-{
-	real total = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int line = 0; line < s->lines; line++)
-		total += s->sums[sum * s->lines + line];
-	return total;
-}
-
-SHARED_FUNCTION real block_most(const block_state *s, int sum)
-{
-	real most = SPREAD(LITERAL(0.0));
-	ROLLED
-	for (int line = 0; line < s->lines; line++) {
-		const real value = s->sums[sum * s->lines + line];
-		most = CHOOSE(value > most, value, most);
-	}
-	return most;
-}
-
-/* Probes and tables of all lines, WORK_ITEMS at a time: a line is gathered when those beside it are
- * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. part:
- * of the slopes along the first derivatives. */
-SHARED_FUNCTION void block_explore(const block_state *s, real far, real part, int turn,
-                                   block_stay stay)
-{
-	const int at_once = WORK_ITEMS;
-	int gathered = 0, line = 0;
-	ROLLED
-	for (int first = 0; first <= s->lines; first += at_once) {
-		ROLLED
-		for (line = first + WORK_ITEM; line < first + at_once && line < s->lines;
-		     line += WORK_ITEMS)
-			s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line] = block_probe_line(s, line, far, part);
-		WAIT;
-		ROLLED
-		for (line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS) {
-			if (line < 0 || line >= s->lines)
-				continue;
-			block_gather_line(s, line, turn, stay);
-			gathered++;
-			if (gathered == BLOCK_TOGETHER || line + WORK_ITEMS >= s->lines) {
-				block_factor_lines(s, line - (gathered - 1) * WORK_ITEMS, WORK_ITEMS, gathered);
-				gathered = 0;
-			}
-		}
-		WAIT;
-	}
-	if (s->hats > 0)
-		block_explore_hats(s, stay);
-}
 
 /* Which pairs of move and change tell of the curvature here; one made under other bounds does not, nor one
  * from the slopes of the first iteration. */
@@ -179,11 +137,7 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 	block_remember(s, p);
 	block_unroll(s, p, alpha);
 	WAIT;
-	if (s->hats > 0)
-		block_choose_hats(s, turn, alpha);
-	ROLLED
-	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		block_solve_line(s, line, turn, alpha);
+	block_solve(s, turn, alpha);
 	WAIT;
 	block_roll(s, p, alpha);
 	WAIT;
@@ -236,14 +190,9 @@ SHARED_FUNCTION block_trial block_try(const block_state *s, real part)
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
 		block_trial_line(s, line, part);
 	WAIT;
-	ROLLED
-	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		s->sums[2 * s->lines + line] = block_line_objective(s, block_array(s, BLOCK_STATE_TRIAL),
-		                                                    line);
-	WAIT;
 	trial.promise = block_total(s, 0);
 	trial.longest = block_most(s, 1);
-	trial.objective = block_total(s, 2);
+	trial.objective = block_trial_objective(s);
 	WAIT;
 	return trial;
 }
@@ -363,8 +312,7 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	const real one = SPREAD(LITERAL(1.0));
 	const block_stay stay = { p->damping, p->weight };
 	const mask fresh = p->fresh > zero;
-	block_explore(s, limits.far, CHOOSE(fresh, zero, one), turn, stay);
-	const real objective = block_total(s, BLOCK_SUM_COUNT - 1);
+	const real objective = block_explore(s, limits.far, CHOOSE(fresh, zero, one), turn, stay);
 	p->start = CHOOSE(fresh, objective, p->start);
 	p->objective = CHOOSE(fresh, objective, p->objective);
 	const real longest = block_choose_way(s, turn, p);

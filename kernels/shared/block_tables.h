@@ -79,44 +79,19 @@ SHARED_FUNCTION void block_factor_lines(const block_state *s, int first, int apa
 	}
 }
 
-/* What the pattern move wants of the slopes: products with the moves remembered. */
-typedef struct block_products {
-	real slope[BLOCK_MEMORY];  /* move . slope, newest first */
-	real change[BLOCK_MEMORY]; /* move . change of the slope since the iteration before */
-	real changed;              /* offsets that are held now and were not, or the other way */
-} block_products;
-
-/* Completes row n: closeness, the bounds, the change of the slope; leaves it to be factored. */
+/* Completes row n: closeness and what all rows have; leaves it to be factored. */
 SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, block_stay stay,
                                       block_row row, block_products *sums)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real two = SPREAD(LITERAL(2.0));
 	const real y = block_array(s, BLOCK_INPUT_START)[n];
-	const real lower = block_array(s, BLOCK_INPUT_LOWER)[n];
-	const real upper = block_array(s, BLOCK_INPUT_UPPER)[n];
 	const real close = two * block_array(s, BLOCK_INPUT_CLOSE)[n];
 	row.self += close;
 	row.slope += close * (y - block_array(s, BLOCK_INPUT_TARGET)[n]);
-	const mask down = (y > lower) & (row.slope >= zero);
-	const mask up = (y < upper) & (row.slope <= zero);
-	const mask is_free = (row.self > zero) & (down | up);
-	row.self += stay.part * row.self + stay.weight;
-	STATE real *slope = block_array(s, BLOCK_STATE_SLOPE) + n;
-	const real change = row.slope - *slope;
-	STATE real *self = block_array(s, BLOCK_STATE_INVERSE) + n;
-	const mask differs = is_free != (*self > zero);
-	sums->changed += CHOOSE(differs, SPREAD(LITERAL(1.0)), zero);
-	*self = CHOOSE(is_free, row.self, zero);
+	const mask is_free = block_settle_row(s, n, turn, stay, row.slope, row.self, sums);
 	block_array(s, BLOCK_STATE_FACTOR_1)[n] = CHOOSE(is_free, row.next, zero);
 	block_array(s, BLOCK_STATE_FACTOR_2)[n] = CHOOSE(is_free, row.over, zero);
-	*slope = row.slope;
-	block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, 0))[n] = change;
-	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		const real move = block_array(s, BLOCK_STATE_MOVE + block_slot(turn, m))[n];
-		sums->slope[m] += move * row.slope;
-		sums->change[m] += move * change;
-	}
 }
 
 /* Slopes and the table of one line, whose probes and those beside it are in the ring. */
@@ -125,10 +100,7 @@ SHARED_FUNCTION void block_gather_line(const block_state *s, int line, int turn,
 	const real zero = SPREAD(LITERAL(0.0));
 	block_row row = { zero, zero, zero, zero };
 	block_row above = row;
-	block_products sums;
-	for (int m = 0; m < BLOCK_MEMORY; m++)
-		sums.slope[m] = sums.change[m] = zero;
-	sums.changed = zero;
+	block_products sums = block_products_none();
 	const block_sides sides = block_sides_of(s, line);
 	ROLLED
 	for (int k = 1; k <= s->length; k++) {
@@ -144,11 +116,7 @@ SHARED_FUNCTION void block_gather_line(const block_state *s, int line, int turn,
 		above.slope = t.slope_above;
 		above.self = t.self_above;
 	}
-	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		s->sums[m * s->lines + line] = sums.slope[m];
-		s->sums[(BLOCK_MEMORY + m) * s->lines + line] = sums.change[m];
-	}
-	s->sums[2 * BLOCK_MEMORY * s->lines + line] = sums.changed;
+	block_products_tell(s, line, &sums);
 }
 
 /* The bottom of the line's parabola with the slope less the changes remembered, alpha of each, and what

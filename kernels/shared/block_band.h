@@ -1,0 +1,72 @@
+/* The table of a parabola whose variables are coupled with neighbours alone, a band: its factors and its bottom
+ * (L D L^T). */
+#ifndef BATTEN_SHARED_BLOCK_BAND_H
+#define BATTEN_SHARED_BLOCK_BAND_H
+
+#include "dialect.h"
+
+/* A pivot below this part of its diagonal is rounding. */
+#if BATTEN_DOUBLE
+#define BLOCK_PIVOT_FLOOR LITERAL(1e-11)
+#else
+#define BLOCK_PIVOT_FLOOR LITERAL(1e-5)
+#endif
+
+/* Rows of `band` numbers, the diagonal first; the inverses of the pivots take its place when it is factored.
+ * way: a number a row. */
+typedef struct block_band {
+	STATE real *rows, *way;
+	int count, band;
+} block_band;
+
+/* 1 / pivot, 0 where it is rounding: a variable that is held, or depends on those before it, has none. */
+SHARED_FUNCTION real block_band_inverse(real pivot, real floor)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	const real one = SPREAD(LITERAL(1.0));
+	const mask has = (pivot > floor) & (pivot > zero);
+	return CHOOSE(has, one / CHOOSE(has, pivot, one), zero);
+}
+
+/* Takes row n out of those below that it couples with, before row `end`, and puts the inverse of its pivot
+ * there. */
+SHARED_FUNCTION void block_band_eliminate(block_band table, int n, int end, real inverse)
+{
+	STATE real *row = table.rows + n * table.band;
+	const int reach = end - n < table.band ? end - n : table.band;
+	ROLLED
+	for (int d = 1; d < reach; d++) {
+		STATE real *below = row + d * (table.band - 1);
+		const real factor = row[d] * inverse;
+		ROLLED
+		for (int e = d; e < reach; e++)
+			below[e] -= factor * row[e];
+	}
+	row[0] = inverse;
+}
+
+/* The bottom of the parabola in the place of the slopes, which stand in way. */
+SHARED_FUNCTION void block_band_solve(block_band table)
+{
+	ROLLED
+	for (int n = 0; n < table.count; n++) {
+		const STATE real *row = table.rows + n * table.band;
+		const int reach = table.count - n < table.band ? table.count - n : table.band;
+		const real part = table.way[n] * row[0];
+		ROLLED
+		for (int d = 1; d < reach; d++)
+			table.way[n + d] -= row[d] * part;
+	}
+	ROLLED
+	for (int n = table.count - 1; n >= 0; n--) {
+		const STATE real *row = table.rows + n * table.band;
+		const int reach = table.count - n < table.band ? table.count - n : table.band;
+		real left = table.way[n];
+		ROLLED
+		for (int d = 1; d < reach; d++)
+			left -= row[d] * table.way[n + d];
+		table.way[n] = left * row[0];
+	}
+}
+
+#endif
