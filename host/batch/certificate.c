@@ -3,6 +3,7 @@
 #include "batch/grid_terms.h"
 #include "batch/newton.h"
 #include "batch/search_pack.h"
+#include "batch/search_result.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,18 +76,18 @@ static bool term_of(const certifier *c, size_t node, grid_stencil *stencil,
 	return true;
 }
 
-/* The objective, its part of fairness, and its gradient at every node. */
-static double differentiate(certifier *c, double *fairness)
+/* The objective, and its gradient at every node. */
+static search_objective differentiate(certifier *c)
 {
 	const size_t nodes = c->plan->node_count;
 	const double *y = array_of(c, SEARCH_ARRAY_Y);
 	const double *target = array_of(c, SEARCH_ARRAY_TARGET);
 	const double *close = array_of(c, SEARCH_ARRAY_CLOSE);
-	double sum = 0.0;
+	search_objective sum = { 0 };
 	for (size_t n = 0; n < nodes; n++) {
 		const double off = y[n] - target[n];
 		c->gradient[n] = 2.0 * close[n] * off;
-		sum += close[n] * off * off;
+		sum.closeness += close[n] * off * off;
 	}
 	for (size_t node = 0; node < nodes; node++) {
 		grid_stencil stencil;
@@ -94,12 +95,12 @@ static double differentiate(certifier *c, double *fairness)
 		jet term;
 		if (!term_of(c, node, &stencil, places, &term))
 			continue;
-		*fairness += term.value;
+		sum.fairness += term.value;
 		for (size_t n = 0; n < stencil.count; n++)
 			for (int v = 0; v < stencil.variables; v++)
 				c->gradient[places[n]] += term.first[v] * stencil.weight[v][n];
 	}
-	return sum + *fairness;
+	return sum;
 }
 
 /* Numbers the nodes that are free: not fixed, and not held at a bound by the gradient. last: what those
@@ -177,27 +178,18 @@ static void pack_end(certifier *c, const double *y_m)
 
 double certifier_objective(certifier *c, const batten_search_problem *problem, const double *y_m)
 {
-	double fairness = 0.0;
 	c->problem = problem;
 	pack_end(c, y_m);
-	return differentiate(c, &fairness);
-}
-
-/* Fairness as a sum, without its weight. */
-static double unweighed(const certifier *c, double fairness)
-{
-	const double h = c->problem->half_beam_m;
-	const double scale = c->plan->fairness == GRID_VARIATION ? h * h : 1.0;
-	return c->problem->w1 > 0.0 ? fairness / (c->problem->w1 * scale) : NAN;
+	return search_objective_whole(differentiate(c));
 }
 
 static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	certifier *c = (certifier *)of;
-	*out = (batten_certificate){ .gap_estimate = NAN };
+	const batten_search_problem *problem = c->problem;
 	pack_end(c, y_m);
-	out->objective = differentiate(c, &out->fairness);
-	out->fairness = unweighed(c, out->fairness);
+	*out = search_objective_told(differentiate(c), problem->w1, problem->w2, problem->half_beam_m,
+	                             c->plan->fairness == GRID_VARIATION);
 	double last = 0.0;
 	const size_t count = number_unknowns(c, &last);
 	const newton_system system = { .context = c->plan->context,
@@ -236,8 +228,7 @@ static double go(void *of, const double *from, double part, double *y_m)
 			if (!c->problem->nodes || c->problem->nodes[node] != BATTEN_NODE_OUTSIDE)
 				y_m[node] = now[n];
 		}
-	double fairness = 0.0;
-	return differentiate(c, &fairness);
+	return search_objective_whole(differentiate(c));
 }
 
 batten_status certifier_polish(certifier *c, const batten_search_problem *problem, double gap,

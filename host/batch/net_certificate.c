@@ -3,6 +3,7 @@
 #include "batch/net_pack.h"
 #include "batch/net_terms.h"
 #include "batch/newton.h"
+#include "batch/search_result.h"
 #include "core/band.h"
 
 #include <float.h>
@@ -73,11 +74,10 @@ static bool term_of(const net_certifier *c, const net_patch *patch, const double
 	return true;
 }
 
-/* The objective at `way`, its part of fairness, and its gradient at every pole by itself. */
-static double differentiate(net_certifier *c, double *fairness)
+/* The objective at `way`, and its gradient at every pole by itself. */
+static search_objective differentiate(net_certifier *c)
 {
-	double close = 0.0;
-	*fairness = 0.0;
+	search_objective sum = { 0 };
 	for (size_t n = 0; n < net_plan_poles(&c->plan); n++)
 		c->gradient[n] = 0.0;
 	for (size_t line = 0; line < c->plan.v.count; line++)
@@ -88,8 +88,8 @@ static double differentiate(net_certifier *c, double *fairness)
 			jet term = { 0 };
 			net_patch_of(&c->plan, line, i, &patch);
 			const bool bends = term_of(c, &patch, sample, &off, &term);
-			close += sample[NET_SAMPLE_CLOSE] * off * off;
-			*fairness += term.value;
+			sum.closeness += sample[NET_SAMPLE_CLOSE] * off * off;
+			sum.fairness += term.value;
 			for (size_t n = 0; n < patch.count; n++) {
 				double slope = 2.0 * sample[NET_SAMPLE_CLOSE] * off * patch.at[n];
 				for (int d = 0; bends && d < patch.variables; d++)
@@ -97,7 +97,7 @@ static double differentiate(net_certifier *c, double *fairness)
 				c->gradient[patch.poles[n]] += slope;
 			}
 		}
-	return *fairness + close;
+	return sum;
 }
 
 /* Numbers the leaders that are free: with room, and not held at its end by the gradient. last: what those
@@ -172,14 +172,6 @@ static void assemble(const void *of, size_t width, double *band)
 		}
 }
 
-/* Fairness as an integral, without its weight. */
-static double unweighed(const net_certifier *c, double fairness)
-{
-	const double h = c->item->half_beam_m;
-	const double scale = c->plan.fairness == NET_FAIRNESS_VARIATION ? h * h : 1.0;
-	return c->item->w1 > 0.0 ? fairness / (c->item->w1 * scale) : NAN;
-}
-
 static void stand(net_certifier *c, const double *y_m)
 {
 	for (size_t n = 0; n < net_plan_poles(&c->plan); n++)
@@ -190,12 +182,11 @@ static batten_status judge(void *of, const double *y_m, batten_certificate *out)
 {
 	net_certifier *c = (net_certifier *)of;
 	const size_t poles = net_plan_poles(&c->plan);
-	double fairness = 0.0;
+	const net_item *item = c->item;
 	double last = 0.0;
-	*out = (batten_certificate){ .gap_estimate = NAN };
 	stand(c, y_m);
-	out->objective = differentiate(c, &fairness);
-	out->fairness = unweighed(c, fairness);
+	*out = search_objective_told(differentiate(c), item->w1, item->w2, item->half_beam_m,
+	                             c->plan.fairness == NET_FAIRNESS_VARIATION);
 	const size_t count = number_unknowns(c, &last);
 	const newton_system system = { .context = c->plan.context,
 		                           .places = poles,
@@ -214,11 +205,10 @@ batten_status net_certifier_answer(net_certifier *c, size_t which, const double 
                                    const double *slopes, double *ways, bool *known)
 {
 	const size_t poles = net_plan_poles(&c->plan);
-	double fairness = 0.0;
 	double last = 0.0;
 	begin(c, which);
 	stand(c, y_m);
-	differentiate(c, &fairness);
+	(void)differentiate(c);
 	const size_t unknowns = number_unknowns(c, &last);
 	const size_t width = band_width(c);
 	double *band = batten_allocate(c->plan.context, unknowns, (width + 1) * sizeof *band);
@@ -236,7 +226,6 @@ batten_status net_certifier_answer(net_certifier *c, size_t which, const double 
 static double go(void *of, const double *from, double part, double *y_m)
 {
 	net_certifier *c = (net_certifier *)of;
-	double fairness = 0.0;
 	for (size_t n = 0; n < net_plan_poles(&c->plan); n++) {
 		const size_t leader = c->plan.leader[n];
 		const double start = net_start_of(c->item, leader);
@@ -249,7 +238,7 @@ static double go(void *of, const double *from, double part, double *y_m)
 			              c->item->upper_y_m[n]);
 		c->way[n] = y_m[n] - c->item->target_y_m[n];
 	}
-	return differentiate(c, &fairness);
+	return search_objective_whole(differentiate(c));
 }
 
 batten_status net_certifier_run(net_certifier *c, size_t which, const double *y_m,

@@ -16,9 +16,11 @@ static void say(batten_certificate *out, const char *message)
 
 batten_certificate newton_refused(const char *fault)
 {
-	batten_certificate refused = {
-		.objective = NAN, .fairness = NAN, .gradient_per_m = NAN, .gap_estimate = NAN
-	};
+	batten_certificate refused = { .objective = NAN,
+		                           .fairness = NAN,
+		                           .closeness_m4 = NAN,
+		                           .gradient_per_m = NAN,
+		                           .gap_estimate = NAN };
 	say(&refused, fault);
 	return refused;
 }

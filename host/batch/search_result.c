@@ -48,6 +48,23 @@ batten_status search_results_judge(batten_context *context, size_t count,
 	return BATTEN_OK;
 }
 
+double search_objective_whole(search_objective sum)
+{
+	return sum.fairness + sum.closeness;
+}
+
+batten_certificate search_objective_told(search_objective sum, double w1, double w2,
+                                         double half_beam_m, bool varies)
+{
+	const double h2 = half_beam_m * half_beam_m;
+	return (batten_certificate){
+		.objective = search_objective_whole(sum),
+		.fairness = w1 > 0.0 ? sum.fairness / (w1 * (varies ? h2 : 1.0)) : NAN,
+		.closeness_m4 = w2 > 0.0 ? sum.closeness / w2 * (h2 * h2) : NAN,
+		.gap_estimate = NAN,
+	};
+}
+
 static int compare_ratios(const void *left, const void *right)
 {
 	const search_weights *a = left;

@@ -24,4 +24,15 @@ batten_search_result search_result_refused(const char *fault);
 batten_status search_results_judge(batten_context *context, size_t count,
                                    const batten_search_result *results);
 
+/* An objective in its parts, each with its weight. */
+typedef struct search_objective {
+	double fairness, closeness;
+} search_objective;
+double search_objective_whole(search_objective sum);
+
+/* What a certificate tells of it; the rest is 0, the gap not known. varies: fairness is the variation of
+ * curvature, which h^2 makes a number. */
+batten_certificate search_objective_told(search_objective sum, double w1, double w2,
+                                         double half_beam_m, bool varies);
+
 #endif

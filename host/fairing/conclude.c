@@ -29,6 +29,7 @@ batten_status fairing_conclude(batten_fairing *fairing, const batten_fair_option
 		status = space->certify(space->of, NULL, 0.0, y, &of_plain);
 		certificate->gap_estimate *= certificate->objective / of_plain.objective;
 		certificate->objective = of_plain.objective;
+		certificate->closeness_m4 = of_plain.closeness_m4;
 		result->objective_start = objective_start;
 		result->objective_end = of_plain.objective;
 	}

@@ -149,8 +149,9 @@ BATTEN_API batten_status batten_fair_stream(batten_context *context, const batte
  * probed it: free are the offsets that are not fixed, nor held at a bound by the gradient. The
  * objective is not convex, so all of it is local: it knows nothing of other minima. */
 typedef struct batten_certificate {
-	double objective;      /* F at y, in double */
-	double fairness;       /* the sum of fairness dS, without w1; NaN where w1 is 0 */
+	double objective;    /* F at y, in double */
+	double fairness;     /* the sum of fairness dS, without w1; NaN where w1 is 0 */
+	double closeness_m4; /* the sum of (y - target)^2 dx dz, without w2 / h^4; NaN where w2 is 0 */
 	double gradient_per_m; /* norm of the projected gradient: dF/dy over the free offsets */
 	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
 	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
