@@ -21,6 +21,7 @@ static const cli_command command = {
 		"  batten fair data/hulls/npl_parent.csv --fairness mean --longitudinal 4\n"
 		"  batten fair data/hulls/npl_parent.csv --front 1:1e6:25 --out front\n"
 		"  batten fair data/hulls/bsra_trawler.csv --variables net --net 12x7 --fix-tangent stem\n"
+		"  batten fair data/hulls/bsra_trawler.csv --variables net --front 1:1e6:13 --out front\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method forward-approximation --order 3 --max-cn 3\n"
 		"  batten fair data/hulls/wigley_noisy.csv --method inverse --order 4 --order-sections 3\n"
 		"  batten fair data/hulls/npl_parent.csv --keep volume_m3=0.01%,lcb_pct_lbp_fwd=0.01\n"
@@ -37,6 +38,8 @@ static const cli_command command = {
 		"that have a part in the surface there. Poles of edges in the centreplane stay. faired.csv has the\n"
 		"half-breadths of the faired surface, DIR/surface.json the surface in metres, frame ap-fwd; profile\n"
 		"zeros, locked offsets and what lies off the surface keep their numbers (the report counts these).\n"
+		"--front writes one row a weight, from LOW to HIGH, equal factors apart; over a net also the surface of\n"
+		"each, DIR/surface-0001.json and so on, and closeness is that to the fitted surface.\n"
 		"--method smooth replaces gross errors and stops. The forward methods and inverse (thesis 5, 6)\n"
 		"take the file as it is (--smooth replaces gross errors first), work line by line and print a row an\n"
 		"iteration; ends of lines stay, stem, stern and keel points beyond the table come from its profile\n"
@@ -298,7 +301,8 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "w1", CLI_NUMBER, &request->w1, "X", "weight of fairness, dimensionless" },
 		{ "w2", CLI_NUMBER, &request->w2, "Y", "weight of closeness, dimensionless" },
 		{ "front", CLI_TEXT, &request->front, "LOW:HIGH:COUNT",
-		  "fair nothing: sweep w2/w1 and write fairness over closeness as front.csv, .json, .svg" },
+		  "fair nothing: sweep w2/w1 and write fairness over closeness as front.csv, .json, .svg; of a "
+		  "net also the surfaces" },
 		{ "max-distance", CLI_TEXT, &request->max_distance, "D",
 		  "keep every offset this close to the smoothed hull (1% of the half-beam; or 0.5mm)" },
 		{ "lock", CLI_TEXT, &request->lock, "LIST",

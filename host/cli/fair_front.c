@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { COLUMNS = 11 };
 static const char *const columns[COLUMNS] = {
@@ -67,22 +68,46 @@ static batten_status read_front(const char *text, double *low, double *high, siz
 	                 text);
 }
 
+enum { NAME_SIZE = 32 };
+
+/* The surface of each row, counted from 1, and none of an older front, which had more. */
+static batten_status write_surfaces(const fair_job *job, size_t count,
+                                    const batten_front_point *points, const char *folder)
+{
+	char path[PATH_MAX + NAME_SIZE];
+	const size_t made = points[0].surface ? count : 0;
+	for (size_t row = 1;; row++) {
+		(void)snprintf(path, sizeof path, "%s/surface-%04zu.json", folder, row);
+		if (row > made && unlink(path) != 0)
+			return BATTEN_OK;
+		if (row > made)
+			continue;
+		const batten_status status = batten_surface_write(job->context, points[row - 1].surface,
+		                                                  path);
+		if (status != BATTEN_OK)
+			return status;
+	}
+}
+
 static batten_status write_files(const fair_job *job, const batten_table *table,
                                  const batten_front_point *points, const char *folder)
 {
 	static const char *const names[] = { "front.csv", "front.json", "front.svg" };
 	bool made = false;
+	if (strlen(folder) + NAME_SIZE >= PATH_MAX)
+		return cli_usage("fair", "--out: found '%s', expected a shorter path", folder);
 	batten_status status = fair_folder_make(folder, &made);
 	if (status != BATTEN_OK)
 		return status;
 	for (size_t f = 0; f < sizeof names / sizeof names[0] && status == BATTEN_OK; f++) {
-		char path[PATH_MAX];
-		if (snprintf(path, sizeof path, "%s/%s", folder, names[f]) >= (int)sizeof path)
-			return cli_usage("fair", "--out: found '%s', expected a shorter path", folder);
+		char path[PATH_MAX + NAME_SIZE];
+		(void)snprintf(path, sizeof path, "%s/%s", folder, names[f]);
 		status = f < 2 ? batten_table_write(job->context, table, path)
 		               : batten_picture_front(job->context, table->name, table->row_count, points,
 		                                      path);
 	}
+	if (status == BATTEN_OK)
+		status = write_surfaces(job, table->row_count, points, folder);
 	return status == BATTEN_OK ? status : cli_failure("fair", job->context, status);
 }
 
@@ -114,19 +139,38 @@ static batten_status tell(const fair_job *job, const batten_table *table, const 
 		(void)printf("%14.6g %14.6g %14.6g %10.4g%s%s\n", row[0], row[1], 1000.0 * row[5], row[3],
 		             row[9] == 0.0 ? "  not converged" : "", row[10] == 0.0 ? "" : "  dominated");
 	}
-	(void)printf("\nwritten to %s: front.csv, front.json, front.svg\n", folder);
+	(void)printf("\nwritten to %s: front.csv, front.json, front.svg", folder);
+	if (job->options.variables == BATTEN_VARIABLES_NET)
+		(void)printf(", surface-0001.json to surface-%04zu.json", table->row_count);
+	(void)printf("\n");
 	return BATTEN_OK;
 }
 
-/* What a front has none of. */
-static batten_status check(const fair_job *job)
+/* The front as a table, in files and told. */
+static batten_status put_out(const fair_job *job, size_t count, const batten_front_point *points,
+                             const char *folder)
 {
-	if (job->options.weights_given)
-		return cli_usage("fair", "--front sweeps w2/w1: no --w1 and --w2 are expected with it");
-	if (job->options.variables == BATTEN_VARIABLES_NET)
-		return cli_usage("fair",
-		                 "--front is about offsets: --variables offsets was expected with it");
-	return BATTEN_OK;
+	const bool by_net = job->options.variables == BATTEN_VARIABLES_NET;
+	const char *names[COLUMNS + BATTEN_KEEP_LIMIT];
+	const size_t width = name_columns(job, names);
+	double *values = calloc(count, width * sizeof *values);
+	if (!values) {
+		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));
+		return BATTEN_MEMORY;
+	}
+	for (size_t p = 0; p < count; p++)
+		put_row(&points[p], job->options.keep_count, values + p * width);
+	const batten_table table = { .name = batten_hull_name(job->hull),
+		                         .quadrature = by_net ? "gauss" : "differences over 3 x 3 offsets",
+		                         .column_count = width,
+		                         .row_count = count,
+		                         .columns = names,
+		                         .values = values };
+	batten_status status = write_files(job, &table, points, folder);
+	if (status == BATTEN_OK)
+		status = tell(job, &table, folder);
+	free(values);
+	return status;
 }
 
 batten_status fair_front(fair_job *job, const char *folder)
@@ -134,37 +178,24 @@ batten_status fair_front(fair_job *job, const char *folder)
 	double low = 0.0;
 	double high = 0.0;
 	size_t count = 1;
-	batten_status status = check(job);
-	if (status == BATTEN_OK)
-		status = read_front(job->request->front, &low, &high, &count);
+	if (job->options.weights_given)
+		return cli_usage("fair", "--front sweeps w2/w1: no --w1 and --w2 are expected with it");
+	batten_status status = read_front(job->request->front, &low, &high, &count);
 	if (status != BATTEN_OK)
 		return status;
 	batten_front_point *points = calloc(count, sizeof *points);
-	const char *names[COLUMNS + BATTEN_KEEP_LIMIT];
-	const size_t width = name_columns(job, names);
-	double *values = calloc(count, width * sizeof *values);
-	batten_status swept = BATTEN_MEMORY;
-	if (points && values)
-		swept = batten_hull_front(job->context, job->hull, &job->options, low, high, count, points);
-	status = swept == BATTEN_INCOMPLETE ? BATTEN_OK : swept;
-	if (status == BATTEN_MEMORY)
-		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(status));
-	else if (status != BATTEN_OK)
-		(void)cli_failure("fair", job->context, status);
-	if (status == BATTEN_OK) {
-		for (size_t p = 0; p < count; p++)
-			put_row(&points[p], job->options.keep_count, values + p * width);
-		const batten_table table = { .name = batten_hull_name(job->hull),
-			                         .quadrature = "differences over 3 x 3 offsets",
-			                         .column_count = width,
-			                         .row_count = count,
-			                         .columns = names,
-			                         .values = values };
-		status = write_files(job, &table, points, folder);
-		if (status == BATTEN_OK)
-			status = tell(job, &table, folder);
+	if (!points) {
+		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));
+		return BATTEN_MEMORY;
 	}
+	const batten_status swept = batten_hull_front(job->context, job->hull, &job->options, low, high,
+	                                              count, points);
+	if (swept == BATTEN_OK || swept == BATTEN_INCOMPLETE)
+		status = put_out(job, count, points, folder);
+	else
+		status = cli_failure("fair", job->context, swept);
+	for (size_t p = 0; p < count; p++)
+		batten_surface_destroy(points[p].surface);
 	free(points);
-	free(values);
 	return status == BATTEN_OK ? swept : status;
 }

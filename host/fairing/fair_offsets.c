@@ -65,9 +65,8 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	double *y = batten_allocate(context, count, nodes * sizeof *y);
 	if (!y)
 		return BATTEN_MEMORY;
-	const batten_grid grid = { hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
-	batten_status status = batten_search_batch(context, &grid, count, problems, &chosen_search, y,
-	                                           results, &fairing->run);
+	batten_status status = offset_space_search(fairing, count, problems, &chosen_search, y,
+	                                           results);
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
 		offset_space one = { fairing, box, &chosen_search, problems[chosen], NULL };

@@ -1,8 +1,5 @@
 /* batten_hull_front: one batch of searches that differ in what closeness counts. */
-#include "fairing/box.h"
-#include "fairing/conclude.h"
-#include "fairing/fairing.h"
-#include "fairing/offset_space.h"
+#include "fairing/front.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,9 +9,6 @@ enum { POINTS_MOST = 4096 };
 static batten_status check(batten_context *context, const batten_fair_options *options, double low,
                            double high, size_t count)
 {
-	if (options->variables != BATTEN_VARIABLES_OFFSETS)
-		return batten_fail(context, BATTEN_USAGE,
-		                   "a front is one of offsets: --variables offsets was expected");
 	if (options->method != BATTEN_METHOD_SEARCH)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "a front is one of searches: --method search was "
@@ -32,30 +26,15 @@ static batten_status check(batten_context *context, const batten_fair_options *o
 	return BATTEN_OK;
 }
 
-/* Memory of the batch. */
-typedef struct sweep {
-	batten_search_problem *problems;
-	batten_search_result *results;
-	batten_certificate *certificates;
-	double *y_m;
-} sweep;
-
-static void release(batten_context *context, sweep *s)
+bool front_concludes(const front *f)
 {
-	batten_release(context, s->problems);
-	batten_release(context, s->results);
-	batten_release(context, s->certificates);
-	batten_release(context, s->y_m);
+	return f->options->keep_count > 0 || f->options->polish_gap > 0.0;
 }
 
-static batten_status allocate(const batten_fairing *fairing, size_t count, sweep *s)
+void front_take_concluded(const front *f, size_t point)
 {
-	batten_context *context = fairing->context;
-	s->problems = batten_allocate(context, count, sizeof *s->problems);
-	s->results = batten_allocate(context, count, sizeof *s->results);
-	s->certificates = batten_allocate(context, count, sizeof *s->certificates);
-	s->y_m = batten_allocate(context, count, hull_node_count(fairing->smoothed) * sizeof *s->y_m);
-	return s->problems && s->results && s->certificates && s->y_m ? BATTEN_OK : BATTEN_MEMORY;
+	f->certificates[point] = f->fairing->certificate;
+	memcpy(f->points[point].kept, f->fairing->kept, sizeof f->points[point].kept);
 }
 
 /* Smaller is better in both. */
@@ -71,72 +50,47 @@ static void mark_dominated(size_t count, batten_front_point *points)
 		}
 }
 
-/* What each point is to keep, one after the other, with its certificate. */
-static batten_status keep(batten_fairing *fairing, const batten_fair_options *options,
-                          const fairing_box *box, const batten_search_options *search, size_t count,
-                          sweep *s, batten_front_point *points)
+static void take(const front *f)
 {
-	batten_status status = BATTEN_OK;
-	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
-		offset_space one = { fairing, box, search, s->problems[p], NULL };
-		fairing_space space;
-		status = offset_space_open(&one, &space);
-		if (status == BATTEN_OK)
-			status = fairing_conclude(fairing, options, &space, s->y_m + p * space.count,
-			                          &s->results[p]);
-		offset_space_close(&one);
-		s->certificates[p] = fairing->certificate;
-		memcpy(points[p].kept, fairing->kept, sizeof points[p].kept);
+	for (size_t p = 0; p < f->count; p++) {
+		f->points[p].fairness = f->certificates[p].fairness;
+		f->points[p].gap_estimate = f->certificates[p].gap_estimate;
+		f->points[p].result = f->results[p];
 	}
-	return status;
+	mark_dominated(f->count, f->points);
 }
 
-static batten_status describe(batten_fairing *fairing, const sweep *s, size_t count,
-                              batten_front_point *points)
+/* Polished or kept measures may have ended what met the limit at first. */
+static batten_status judge(const front *f)
 {
-	batten_hull *faired = fairing->faired;
-	const size_t nodes = hull_node_count(faired);
-	batten_status status = BATTEN_OK;
-	for (size_t p = 0; p < count && status == BATTEN_OK; p++) {
-		points[p].ratio = s->problems[p].w2;
-		points[p].fairness = s->certificates[p].fairness;
-		points[p].gap_estimate = s->certificates[p].gap_estimate;
-		points[p].result = s->results[p];
-		for (size_t n = 0; n < nodes; n++)
-			if (faired->nodes[n] != BATTEN_NODE_OUTSIDE)
-				faired->y_m[n] = s->y_m[p * nodes + n];
-		status = batten_hull_closeness(fairing->context, faired, fairing->smoothed,
-		                               &points[p].closeness);
-	}
-	if (status == BATTEN_OK)
-		mark_dominated(count, points);
-	return status;
+	for (size_t p = 0; p < f->count; p++)
+		if (f->results[p].end == BATTEN_SEARCH_LIMIT)
+			return batten_fail(f->fairing->context, BATTEN_INCOMPLETE,
+			                   "%s: the point at w2/w1 = %g met its iteration limit",
+			                   f->fairing->smoothed->name, f->points[p].ratio);
+	return BATTEN_OK;
 }
 
-static batten_status search(batten_fairing *fairing, const batten_fair_options *options,
-                            const fairing_box *box, double low, double high, size_t count, sweep *s,
-                            batten_front_point *points)
+static batten_status sweep(front *f)
 {
-	const batten_hull *hull = fairing->smoothed;
-	const batten_grid grid = { hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
-	batten_search_options chosen = options->search;
-	chosen.fairness = options->fairness;
-	const double factor = log(high / low) / (double)(count - 1);
-	for (size_t p = 0; p < count; p++)
-		s->problems[p] = fairing_problem(hull, box, 1.0,
-		                                 p + 1 < count ? low * exp(factor * (double)p) : high);
-	const batten_status ran = batten_search_batch(fairing->context, &grid, count, s->problems,
-	                                              &chosen, s->y_m, s->results, &fairing->run);
-	batten_status status = ran == BATTEN_INCOMPLETE ? BATTEN_OK : ran;
-	memset(points, 0, count * sizeof *points);
-	if (status == BATTEN_OK && options->keep_count > 0)
-		status = keep(fairing, options, box, &chosen, count, s, points);
-	else if (status == BATTEN_OK)
-		status = batten_search_certify_batch(fairing->context, &grid, count, s->problems, &chosen,
-		                                     s->y_m, s->certificates);
-	if (status == BATTEN_OK)
-		status = describe(fairing, s, count, points);
-	return status == BATTEN_OK ? ran : status;
+	batten_context *context = f->fairing->context;
+	batten_status status = BATTEN_MEMORY;
+	f->results = batten_allocate(context, f->count, sizeof *f->results);
+	f->certificates = batten_allocate(context, f->count, sizeof *f->certificates);
+	if (f->results && f->certificates)
+		status = f->options->variables == BATTEN_VARIABLES_NET ? front_net(f) : front_offsets(f);
+	if (status == BATTEN_OK) {
+		take(f);
+		status = judge(f);
+	} else {
+		for (size_t p = 0; p < f->count; p++) {
+			batten_surface_destroy(f->points[p].surface);
+			f->points[p].surface = NULL;
+		}
+	}
+	batten_release(context, f->results);
+	batten_release(context, f->certificates);
+	return status;
 }
 
 batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
@@ -144,28 +98,24 @@ batten_status batten_hull_front(batten_context *context, const batten_hull *hull
                                 double ratio_high, size_t count, batten_front_point *points)
 {
 	batten_fair_options chosen;
-	fairing_box box = { 0 };
-	sweep s = { 0 };
 	batten_fair_options_default(&chosen);
 	if (options)
 		chosen = *options;
 	batten_status status = check(context, &chosen, ratio_low, ratio_high, count);
 	if (status != BATTEN_OK)
 		return status;
+	const double factor = log(ratio_high / ratio_low) / (double)(count - 1);
+	memset(points, 0, count * sizeof *points);
+	for (size_t p = 0; p < count; p++)
+		points[p].ratio = p + 1 < count ? ratio_low * exp(factor * (double)p) : ratio_high;
 	batten_fairing *fairing = batten_allocate(context, 1, sizeof *fairing);
 	if (!fairing)
 		return BATTEN_MEMORY;
 	fairing->context = context;
+	front f = { .fairing = fairing, .options = &chosen, .count = count, .points = points };
 	status = fairing_prepare(fairing, hull, &chosen);
 	if (status == BATTEN_OK)
-		status = fairing_box_create(context, fairing->smoothed, &chosen, fairing->locked,
-		                            fairing->facts.max_distance_m, &box);
-	if (status == BATTEN_OK)
-		status = allocate(fairing, count, &s);
-	if (status == BATTEN_OK)
-		status = search(fairing, &chosen, &box, ratio_low, ratio_high, count, &s, points);
-	release(context, &s);
-	fairing_box_release(context, &box);
+		status = sweep(&f);
 	batten_fairing_destroy(fairing);
 	return status;
 }

@@ -2,10 +2,26 @@
 
 #include <string.h>
 
-static batten_grid grid_of(const offset_space *s)
+static batten_grid grid_of(const batten_fairing *fairing)
 {
-	const batten_hull *hull = s->fairing->smoothed;
+	const batten_hull *hull = fairing->smoothed;
 	return (batten_grid){ hull->station_count, hull->waterline_count, hull->x_m, hull->z_m };
+}
+
+batten_status offset_space_search(batten_fairing *fairing, size_t count,
+                                  const batten_search_problem *problems,
+                                  const batten_search_options *how, double *y,
+                                  batten_search_result *results)
+{
+	const batten_grid grid = grid_of(fairing);
+	const batten_status status = batten_search_batch(fairing->context, &grid, count, problems, how,
+	                                                 y, results, &fairing->run);
+	for (size_t i = 0; status == BATTEN_INCOMPLETE && i < count; i++)
+		if (results[i].end == BATTEN_SEARCH_REFUSED)
+			return batten_fail(fairing->context, BATTEN_INPUT,
+			                   "%s: the search with w1 = %g, w2 = %g: %s", fairing->smoothed->name,
+			                   problems[i].w1, problems[i].w2, results[i].message);
+	return status;
 }
 
 static void move(const void *of, double *y, size_t variable, double way_m)
@@ -62,7 +78,7 @@ static batten_status search(void *of, const double *target_m, double *y,
                             batten_search_result *result, batten_run *run)
 {
 	const offset_space *s = of;
-	const batten_grid grid = grid_of(s);
+	const batten_grid grid = grid_of(s->fairing);
 	batten_search_options exact = *s->search;
 	batten_search_problem from = s->problem;
 	exact.precision = BATTEN_F64;
@@ -78,7 +94,7 @@ static batten_status certify(void *of, const double *target_m, double gap, doubl
                              batten_certificate *certificate)
 {
 	const offset_space *s = of;
-	const batten_grid grid = grid_of(s);
+	const batten_grid grid = grid_of(s->fairing);
 	batten_search_problem problem = s->problem;
 	if (target_m)
 		problem.target_m = target_m;

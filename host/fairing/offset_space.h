@@ -6,6 +6,13 @@
 #include "fairing/fairing.h"
 #include "fairing/space.h"
 
+/* Searches the offsets, y [count][waterlines][stations]; INCOMPLETE: one met its limit. Errors: INPUT (one is
+ * refused), those of batten_search_batch(). */
+batten_status offset_space_search(batten_fairing *fairing, size_t count,
+                                  const batten_search_problem *problems,
+                                  const batten_search_options *how, double *y,
+                                  batten_search_result *results);
+
 /* One search of a table; borrows all but the last. */
 typedef struct offset_space {
 	const batten_fairing *fairing;

@@ -114,6 +114,18 @@ static void draw_curve(const struct chart *chart, cairo_t *cairo, const chart_cu
 	cairo_stroke(cairo);
 }
 
+static void draw_dots(const struct chart *chart, cairo_t *cairo, const chart_curve *curve)
+{
+	for (size_t i = 0; i < curve->count; i++) {
+		const double x = across(chart, curve->x[i * curve->x_stride] * curve->scale + curve->to);
+		const double y = down(chart, curve->y[i * curve->y_stride]);
+		if (!isfinite(x) || !isfinite(y))
+			continue;
+		cairo_arc(cairo, x, y, 4.5, 0.0, 2.0 * acos(-1.0));
+		cairo_fill(cairo);
+	}
+}
+
 static void draw_curves(const struct chart *chart, cairo_t *cairo)
 {
 	const double right = right_of(chart);
@@ -123,6 +135,8 @@ static void draw_curves(const struct chart *chart, cairo_t *cairo)
 		const chart_curve *curve = &chart->curves[i];
 		set_pen(cairo, pen);
 		draw_curve(chart, cairo, curve);
+		if (curve->dotted)
+			draw_dots(chart, cairo, curve);
 		if (curve->label[0]) {
 			cairo_move_to(cairo, right + 36, y - 6);
 			cairo_line_to(cairo, right + 90, y - 6);

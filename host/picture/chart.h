@@ -10,6 +10,7 @@ typedef struct chart_curve {
 	const double *x, *y;
 	size_t x_stride, y_stride; /* in numbers */
 	double scale, to;          /* drawn at x * scale + to */
+	bool dotted;               /* with a dot at each place */
 	char label[96];            /* in the legend; "" leaves it out */
 } chart_curve;
 

@@ -17,17 +17,22 @@ batten_status batten_picture_front(batten_context *context, const char *name, si
 		                  .y = &points->fairness,
 		                  .x_stride = NUMBERS,
 		                  .y_stride = NUMBERS,
-		                  .scale = 1000.0 };
+		                  .scale = 1000.0,
+		                  .dotted = true };
 	(void)snprintf(curve.label, sizeof curve.label, "w2/w1 from %.3g (right) to %.3g (left)",
 	               points[0].ratio, points[count - 1].ratio);
-	struct chart chart = { .name = name,
-		                   .subtitle = "fairness against closeness, one point a weight",
-		                   .x_title = "root mean square change, mm",
-		                   .y_title = "sum of fairness dS",
-		                   .count = 1,
-		                   .curves = &curve,
-		                   .y_low = INFINITY,
-		                   .y_high = -INFINITY };
+	struct chart chart = {
+		.name = name,
+		.subtitle = points->surface ? "fairness of the surface against its distance from the "
+		                              "fitted one, one point a weight"
+		                            : "fairness against closeness, one point a weight",
+		.x_title = "root mean square change, mm",
+		.y_title = "sum of fairness dS",
+		.count = 1,
+		.curves = &curve,
+		.y_low = INFINITY,
+		.y_high = -INFINITY
+	};
 	for (size_t p = 0; p < count; p++) {
 		chart.x_high = fmax(chart.x_high, 1000.0 * points[p].closeness.cn_rms_m);
 		chart.y_low = fmin(chart.y_low, points[p].fairness);

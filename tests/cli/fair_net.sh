@@ -61,6 +61,30 @@ expect 3 fair "$hull" $soft --keep gmt_m=0.1 --out none --quiet
 one_line
 says 'gmt_m is nan: it cannot be kept'
 
+# --front: fairness rises and closeness falls with w2/w1; each row has its surface, that of a single run.
+front="--variables net --net 8x7 --device reference --out front"
+# shellcheck disable=SC2086
+expect 0 fair "$hull" $front --front 100:1e5:4
+prints '.*surface-0001.json to surface-0004.json'
+awk -F, '/^#/ { next }
+	!head { head = 1; if ($1 != "ratio_w2_w1" || $2 != "fairness" || $3 != "closeness_m4") exit 1; next }
+	n++ { if (!($1 > ratio && $2 > fair && $3 < close_ && $10 == 1 && $11 == 0)) exit 1 }
+	{ ratio = $1; fair = $2; close_ = $3 }
+	END { if (n != 4 || ratio != 100000) exit 1 }' front/front.csv || fail 'the front over a net is none'
+expect_json front/front.json
+grep -q '<svg' front/front.svg || fail 'no picture of the front'
+expect 0 fair "$hull" --variables net --net 8x7 --w1 1 --w2 1e5 --device reference --out single --quiet
+cmp front/surface-0004.json single/surface.json || fail 'a point of the front is not its fairing'
+# A shorter front, and one over offsets, leave no surfaces of this one behind.
+# shellcheck disable=SC2086
+expect 0 fair "$hull" $front --front 1e3:1e5:2 --keep $keep --quiet
+[ "$(ls front)" = "$(printf '%s\n' front.csv front.json front.svg surface-0001.json surface-0002.json)" ] ||
+	fail 'surfaces of an older front were left behind'
+awk -F, '/^#/ { next } !head { head = 1; exit !($12 == "volume_m3" && $13 == "lcb_pct_lbp_fwd") }' \
+	front/front.csv || fail 'the front does not say what it keeps'
+expect 0 fair "$hull" --front 1e3:1e5:2 --device reference --out front --quiet
+[ -e front/surface-0001.json ] && fail 'a front over offsets has a surface'
+
 # Any device: the same bits.
 # shellcheck disable=SC2086
 expect 0 fair "$hull" $net --device auto --out auto --quiet
@@ -119,6 +143,10 @@ refuses 2 'found column 8' --variables net --net 8x7 --lock column:8
 refuses 2 '--lock: ' --variables net --lock pole:1
 refuses 2 '--lock edge: ' --variables net --lock edge:bow
 refuses 2 '--lower bounds' --variables net --lower "$hull"
+refuses 2 'an interior penalty is\|--interior-penalty is about offsets' --variables net --front 1:10:3 --interior-penalty
+refuses 2 '--front sweeps w2/w1' --variables net --front 1:10:3 --w1 1 --w2 1
+refuses 2 'found row 7' --variables net --net 8x7 --front 1:10:3 --lock row:7
+refuses 3 'w1 = 1, w2 = 1e+30: weights' --variables net --front 1e3:1e30:2 --precision f32
 refuses 2 '--upper bounds' --variables net --upper "$hull"
 hull=$hulls/bsra_trawler.csv
 refuses 2 'cannot be rounded' --variables net --net 12x7 --round stem

@@ -56,6 +56,17 @@ for front in 1 1:2 2:1:5 1:10:1 1:10:5x 0:10:5 a:b:c; do
 	one_line
 	says '^batten fair: --front'
 done
+# Weights that f32 does not have are refused, by a front and by a single run.
+expect 3 fair "$hull" --front 1e3:1e30:2 --precision f32 --device reference --out none
+one_line
+says 'w1 = 1, w2 = 1e+30: weights'
+expect 3 fair "$hull" --w1 1 --w2 1e30 --precision f32 --device reference --out none
+one_line
+says 'w1 = 1, w2 = 1e+30: weights'
+# A polish is one of every point.
+expect 0 fair "$hull" --front 10:1e5:5 --precision f32 --polish 1e-10 --device reference --out front --quiet
+awk -F, '/^#/ { next } n++ && !($9 <= 1e-10) { exit 1 } END { if (n != 6) exit 1 }' front/front.csv ||
+	fail 'the front is not polished'
 expect 2 fair "$hull" --front 1:10:5 --w1 1 --w2 2 --out none
 [ -e none ] && fail 'something was written'
 finish

@@ -119,7 +119,7 @@ static void test_refusals(void **state)
 	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points),
 	                 BATTEN_USAGE);
 	options = f->options;
-	options.variables = BATTEN_VARIABLES_NET;
+	options.method = BATTEN_METHOD_SMOOTH;
 	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points),
 	                 BATTEN_USAGE);
 	assert_int_equal(batten_picture_front(f->context, "none", 1, points, "none.svg"), BATTEN_USAGE);

@@ -223,19 +223,23 @@ BATTEN_API batten_fairing_net batten_fairing_describe_net(const batten_fairing *
  * several objectives). */
 typedef struct batten_front_point {
 	double ratio;               /* w2/w1 */
-	double fairness;            /* the sum of fairness dS of the faired hull */
-	batten_closeness closeness; /* to the smoothed hull */
+	double fairness;            /* the sum of fairness dS of the faired hull or surface */
+	batten_closeness closeness; /* OFFSETS: to the smoothed hull; NET: of the faired surface to the
+	                               fitted one, closeness_m4 all over it, the rest at the offsets that
+	                               take their half-breadths from it */
 	double gap_estimate;        /* of the search, as in batten_certificate */
 	bool dominated; /* another point is no worse in fairness and closeness_m4, better in one */
 	batten_search_result result;
 	batten_kept kept[BATTEN_KEEP_LIMIT]; /* as batten_fairing_kept(): keep_count of the options */
+	batten_surface *surface;             /* NET: faired, the caller's to destroy; OFFSETS: NULL */
 } batten_front_point;
 
 /* Sweeps w2/w1 from ratio_low to ratio_high, equal factors apart, in one batch of searches over the
- * offsets, then keeps what is to be kept, point by point: the fairness-closeness front of a hull. points:
- * the caller's, count of them, ratios ascending. options as for batten_hull_fair, with OFFSETS and without weights; NULL: the default.
+ * offsets, or over the poles of one fitted surface, then keeps what is to be kept and polishes, point by point: the
+ * fairness-closeness front of a hull. points: the caller's, count of them, ratios ascending; each is what
+ * batten_hull_fair() comes to with its weights. options as for that, without weights; NULL: the default.
  * 0 < ratio_low < ratio_high, both 1e-100 .. 1e100; count 2 .. 4096. Returns INCOMPLETE when a search
- * met its iteration limit. Errors: those of batten_hull_fair. */
+ * met its iteration limit. Errors: those of batten_hull_fair(); no surface is made then. */
 BATTEN_API batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
                                            const batten_fair_options *options, double ratio_low,
                                            double ratio_high, size_t count,
