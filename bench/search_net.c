@@ -1,13 +1,21 @@
-/* search.net: a batch of noisy Wigley hulls as bicubic nets of 16 x 10 poles, whole searches for the y
- * of the poles, on the device against the plain C path. L 16, B 1.6, D 1 m, noise of the poles 0.01 m,
- * 4 x 4 Gauss points a span, poles off the centreplane free in 0 .. B/2. */
-#include "bench.h"
+/* search.net: a batch of noisy Wigley hulls as nets, whole searches for the y of the poles, on the device against
+ * the plain C path, and against NLopt's LD_LBFGS with the gradient by formula, one hull after another in plain C,
+ * to the same objective on every hull; where that cannot come as low, as low as it can. */
+#include "nlopt_net_peer.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS = 16, ROWS = 10, POLES = COLUMNS * ROWS, DEGREE = 3, GAUSS = 4 };
+enum {
+	COLUMNS = WIGLEY_NET_COLUMNS,
+	ROWS = WIGLEY_NET_ROWS,
+	POLES = WIGLEY_NET_POLES,
+	DEGREE = WIGLEY_NET_DEGREE,
+	GAUSS = WIGLEY_NET_GAUSS,
+	MOST_HULLS = 32
+};
 
 /* Floating-point operations, the least known, root and division as one each, multiply-add as two. A sample of a
  * direction: y and five derivatives moved (12), the normal, of which one part never changes (6), its square (4), the
@@ -44,90 +52,11 @@ static double iteration_operations(void)
 	return EVALUATIONS * SAMPLE_OPERATIONS * samples;
 }
 
-typedef struct workload {
-	size_t count;
-	double lower[POLES], upper[POLES];
-	batten_surface **surfaces;
-	double *y, *known_y;
-	batten_net_problem *problems;
-	batten_search_result *results, *known;
-} workload;
-
-static void workload_release(workload *w)
-{
-	for (size_t h = 0; w->surfaces && h < w->count; h++)
-		batten_surface_destroy(w->surfaces[h]);
-	free(w->surfaces);
-	free(w->y);
-	free(w->known_y);
-	free(w->problems);
-	free(w->results);
-	free(w->known);
-}
-
-/* The mean of a pole's inner knots, uniform over 0 .. 1 and clamped. */
-static double place_of(int pole, int poles)
-{
-	double sum = 0.0;
-	for (int d = 1; d <= 3; d++) {
-		const double knot = (double)(pole + d - 3) / (double)(poles - 3);
-		sum += knot < 0.0 ? 0.0 : knot > 1.0 ? 1.0 : knot;
-	}
-	return sum / 3.0;
-}
-
-static batten_status make_surface(const bench_settings *settings, uint32_t state, double *upper,
-                                  batten_surface **out)
-{
-	double poles[3 * POLES];
-	for (int n = 0; n < POLES; n++) {
-		const double u = place_of(n % COLUMNS, COLUMNS);
-		const double v = place_of(n / COLUMNS, ROWS);
-		const double form = 0.8 * 4.0 * u * (1.0 - u) * v * (2.0 - v);
-		const bool inside = n % COLUMNS > 0 && n % COLUMNS < COLUMNS - 1 && n >= COLUMNS;
-		state = state * 1664525u + 1013904223u;
-		const double y = form + 0.02 * ((double)(state >> 8) / (1u << 24) - 0.5);
-		poles[3 * n] = 16.0 * u;
-		poles[3 * n + 1] = !inside || y < 0.0 ? 0.0 : y > 0.8 ? 0.8 : y;
-		poles[3 * n + 2] = v;
-		upper[n] = inside ? 0.8 : 0.0;
-	}
-	const batten_surface_net net = {
-		.order_u = 4, .order_v = 4, .count_u = COLUMNS, .count_v = ROWS, .poles_m = poles
-	};
-	return batten_surface_create(settings->context, &net, out);
-}
-
-static batten_status workload_create(const bench_settings *settings, size_t count, double w2,
-                                     workload *w)
-{
-	batten_status status = BATTEN_OK;
-	*w = (workload){ .count = count };
-	w->surfaces = calloc(count, sizeof(batten_surface *));
-	w->y = calloc(count * POLES, sizeof *w->y);
-	w->known_y = calloc(count * POLES, sizeof *w->known_y);
-	w->problems = calloc(count, sizeof *w->problems);
-	w->results = calloc(count, sizeof *w->results);
-	w->known = calloc(count, sizeof *w->known);
-	if (!w->surfaces || !w->y || !w->known_y || !w->problems || !w->results || !w->known)
-		return BATTEN_MEMORY;
-	for (size_t h = 0; h < count && status == BATTEN_OK; h++) {
-		status = make_surface(settings, 2654435761u * (uint32_t)(h + 1), w->upper, &w->surfaces[h]);
-		w->problems[h] = (batten_net_problem){ .start = w->surfaces[h],
-			                                   .lower_y_m = w->lower,
-			                                   .upper_y_m = w->upper,
-			                                   .w1 = 1.0,
-			                                   .w2 = w2,
-			                                   .half_beam_m = 0.8 };
-	}
-	return status;
-}
-
 /* One run: the batch, searched whole. */
 static batten_status run_batch(const bench_settings *settings, void *user, int device,
                                batten_precision precision, batten_run *run)
 {
-	const workload *w = user;
+	const wigley_net *w = user;
 	const bool known = device == BATTEN_DEVICE_REFERENCE;
 	batten_net_options options;
 	batten_net_options_default(&options);
@@ -139,12 +68,12 @@ static batten_status run_batch(const bench_settings *settings, void *user, int d
 
 static bool same_results(const void *user)
 {
-	const workload *w = user;
+	const wigley_net *w = user;
 	return memcmp(w->y, w->known_y, w->count * POLES * sizeof *w->y) == 0;
 }
 
 /* What a run works, by the iterations that it takes. */
-static batten_status count_operations(const bench_settings *settings, workload *w,
+static batten_status count_operations(const bench_settings *settings, wigley_net *w,
                                       batten_precision precision, double *operations)
 {
 	const batten_status status = run_batch(settings, w, settings->device, precision, NULL);
@@ -155,11 +84,124 @@ static batten_status count_operations(const bench_settings *settings, workload *
 	return status;
 }
 
+/* ---- NLopt ---- */
+
+typedef struct rival {
+	const bench_settings *settings;
+	wigley_net *w;
+	batten_precision precision;
+	nlopt_net_search_function *search;
+	double most[MOST_HULLS]; /* what it must reach */
+} rival;
+
+/* Objective and gradient of the rival are ours: by the certificate of a start that the noise bends, and by
+ * differences of it. */
+static batten_status check_gradient(const rival *r, nlopt_net_objective_function *objective)
+{
+	enum { PROBES = 8 };
+	const double step = 1e-5;
+	const wigley_net *w = r->w;
+	batten_net_options options;
+	batten_net_problem problems[2 * PROBES + 1];
+	batten_certificate found[2 * PROBES + 1];
+	double gradient[POLES];
+	double *y = calloc(2 * PROBES + 1, sizeof(double[POLES]));
+	batten_net_options_default(&options);
+	if (!y)
+		return BATTEN_MEMORY;
+	size_t probed[PROBES];
+	double largest = 0.0;
+	for (size_t p = 0; p < 2 * PROBES + 1; p++) {
+		problems[p] = w->problems[0];
+		/* Away from the target, so that closeness has a slope. */
+		for (size_t n = 0; n < POLES; n++)
+			y[p * POLES + n] = w->poles[3 * n + 1] * 0.98;
+	}
+	for (size_t p = 0; p < PROBES; p++) {
+		probed[p] = 17 + p * (POLES - 17) / PROBES;
+		y[2 * p * POLES + probed[p]] += step;
+		y[(2 * p + 1) * POLES + probed[p]] -= step;
+	}
+	const double *here = y + 2 * PROBES * POLES;
+	const double value = objective(w, 0, here, gradient);
+	batten_status status = batten_net_certify_batch(r->settings->context, 2 * PROBES + 1, problems,
+	                                                &options, y, found);
+	if (status == BATTEN_OK && !(fabs(value - found[2 * PROBES].objective) <= 1e-12 * value))
+		status = BATTEN_INTERNAL;
+	for (size_t n = 0; n < POLES; n++)
+		largest = fmax(largest, fabs(gradient[n]));
+	for (size_t p = 0; p < PROBES && status == BATTEN_OK; p++) {
+		const double slope = (found[2 * p].objective - found[2 * p + 1].objective) / (2.0 * step);
+		if (!(fabs(slope - gradient[probed[p]]) <= 1e-6 * largest))
+			status = BATTEN_INTERNAL;
+	}
+	free(y);
+	return status;
+}
+
+static batten_status run_rival(const rival *r)
+{
+	for (size_t h = 0; h < r->w->count; h++)
+		if (!(r->search(r->w, h, r->most[h], r->w->known_y + h * POLES) <= r->most[h]))
+			return BATTEN_INTERNAL;
+	return BATTEN_OK;
+}
+
+/* Both ends are the minimum; the higher one of each hull is what the rival is timed to. */
+static batten_status prepare_rival(rival *r)
+{
+	const double within = r->precision == BATTEN_F64 ? 1e-6 : 2e-4;
+	batten_certificate ends[MOST_HULLS];
+	batten_net_options options;
+	batten_net_options_default(&options);
+	options.search.precision = r->precision;
+	batten_status status = run_batch(r->settings, r->w, r->settings->device, r->precision, NULL);
+	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE)
+		status = batten_net_certify_batch(r->settings->context, r->w->count, r->w->problems,
+		                                  &options, r->w->y, ends);
+	for (size_t h = 0; h < r->w->count && status == BATTEN_OK; h++) {
+		const double other = r->search(r->w, h, -HUGE_VAL, r->w->known_y + h * POLES);
+		if (!(fabs(other - ends[h].objective) <= within * ends[h].objective))
+			status = BATTEN_INTERNAL;
+		/* Sums in another order differ by rounding. */
+		r->most[h] = fmax(other, ends[h].objective) * (1.0 + 1e-12);
+	}
+	return status;
+}
+
+static batten_status run_against_rival(rival *r, bench_row *row)
+{
+	bench_pairs pairs;
+	batten_status status = prepare_rival(r);
+	for (int p = 0; p < BENCH_PAIRS && status == BATTEN_OK; p++) {
+		double begun = bench_seconds(r->settings);
+		status = run_batch(r->settings, r->w, r->settings->device, r->precision, NULL);
+		pairs.value[p] = bench_seconds(r->settings) - begun;
+		begun = bench_seconds(r->settings);
+		if (status == BATTEN_OK)
+			status = run_rival(r);
+		pairs.reference[p] = bench_seconds(r->settings) - begun;
+	}
+	if (status != BATTEN_OK)
+		return status;
+	row->reference = "nlopt_lbfgs";
+	row->percent_of_peak = 0.0;
+	row->bound = NULL;
+	bench_pairs_judge(&pairs, 1e6 / (double)r->w->count, row);
+	r->settings->emit(row, r->settings->user);
+	return BATTEN_OK;
+}
+
 static batten_status run_case(const bench_settings *settings, double w2, batten_precision precision)
 {
-	workload w;
+	wigley_net w;
+	rival other = { .settings = settings, .w = &w, .precision = precision };
+	other.search = (nlopt_net_search_function *)bench_open_peer("batten_nlopt_peer",
+	                                                            "nlopt_net_search");
+	nlopt_net_objective_function *objective = (nlopt_net_objective_function *)bench_open_peer(
+		"batten_nlopt_peer", "nlopt_net_objective");
 	bench_row row = { .name = "search.net", .precision = precision, .unit = "us per hull" };
-	batten_status status = workload_create(settings, settings->full ? 32 : 16, w2, &w);
+	batten_status status = wigley_net_create(settings, settings->full ? MOST_HULLS : 16, w2, &w);
 	bench_contest contest = {
 		.workload = &w, .run = run_batch, .same = same_results, .scale = 1e6 / (double)w.count
 	};
@@ -168,7 +210,12 @@ static batten_status run_case(const bench_settings *settings, double w2, batten_
 		status = count_operations(settings, &w, precision, &contest.operations);
 	if (status == BATTEN_OK)
 		status = bench_against_reference(settings, &contest, &row);
-	workload_release(&w);
+	if (status == BATTEN_OK && other.search && objective) {
+		status = check_gradient(&other, objective);
+		if (status == BATTEN_OK)
+			status = run_against_rival(&other, &row);
+	}
+	wigley_net_release(&w);
 	return status;
 }
 
