@@ -119,16 +119,9 @@ static size_t number_unknowns(certifier *c, double *last)
 	for (size_t o = 0; o < c->plan->station_count * c->plan->waterline_count; o++) {
 		const size_t n = c->order[o];
 		const double near = c->rounding * fabs(y[n]) + c->inside * (upper[n] - lower[n]);
-		const bool down = y[n] <= lower[n] + near && c->gradient[n] >= 0.0;
-		const bool up = y[n] >= upper[n] - near && c->gradient[n] <= 0.0;
-		if (!(lower[n] < upper[n]))
-			continue;
-		if (down || up) {
-			c->step[n] = y[n] - (down ? lower[n] : upper[n]);
-			*last += c->gradient[n] * c->step[n];
-		} else {
+		if (lower[n] < upper[n] && !newton_holds(y[n] - lower[n], upper[n] - y[n], near,
+		                                         c->gradient[n], &c->step[n], last))
 			c->number[n] = count++;
-		}
 	}
 	return count;
 }

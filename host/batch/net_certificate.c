@@ -115,18 +115,12 @@ static size_t number_unknowns(net_certifier *c, double *last)
 		const double start = net_start_of(c->item, n);
 		const double gone = c->item->target_y_m[n] + c->way[n] - start;
 		const double near = c->rounding * (fabs(start) + fabs(gone) + fabs(c->item->target_y_m[n]));
-		const bool down = gone <= c->rooms[n].down + near && c->gradient[n] >= 0.0;
-		const bool up = gone >= c->rooms[n].up - near && c->gradient[n] <= 0.0;
+		const bool moves = plan->leader[n] == n && c->rooms[n].down < c->rooms[n].up;
 		c->number[n] = NEWTON_HELD;
 		c->step[n] = 0.0;
-		if (plan->leader[n] != n || !(c->rooms[n].down < c->rooms[n].up))
-			continue;
-		if (down || up) {
-			c->step[n] = gone - (down ? c->rooms[n].down : c->rooms[n].up);
-			*last += c->gradient[n] * c->step[n];
-		} else {
+		if (moves && !newton_holds(gone - c->rooms[n].down, c->rooms[n].up - gone, near,
+		                           c->gradient[n], &c->step[n], last))
 			c->number[n] = count++;
-		}
 	}
 	for (size_t n = 0; n < poles; n++) {
 		c->number[n] = c->number[plan->leader[n]];

@@ -25,6 +25,17 @@ batten_certificate newton_refused(const char *fault)
 	return refused;
 }
 
+bool newton_holds(double below, double above, double near, double slope, double *step, double *last)
+{
+	const bool down = below <= near && slope >= 0.0;
+	const bool up = above <= near && slope <= 0.0;
+	if (!down && !up)
+		return false;
+	*step = down ? below : -above;
+	*last += slope * *step;
+	return true;
+}
+
 size_t newton_reach(size_t count, const size_t *places, const size_t *number)
 {
 	size_t least = NEWTON_HELD;

@@ -9,6 +9,11 @@
 /* In place of the number of an unknown: what stands there is held. */
 #define NEWTON_HELD SIZE_MAX
 
+/* Whether an unknown is held: within `near` of a bound, below or above, that its slope pushes it to. Then *step
+ * gets its last way there, *last what it gains on that. */
+bool newton_holds(double below, double above, double near, double slope, double *step,
+                  double *last);
+
 /* One term of the objective: its derivatives, and the places they are sums over. */
 typedef struct newton_term {
 	size_t count;
