@@ -57,6 +57,10 @@ static void test_gradient_is_the_oracles(void **state)
 		assert_true(oracle_energy(known.nx, known.nz, known.x, known.z, y, known.nodes, &energies));
 		assert_true(fabs(found.fairness - (double)energies.bending) <=
 		            1e-12 * (double)energies.bending);
+		const double h2 = c.half_beam_m * c.half_beam_m;
+		const oracle_problem close = search_case_oracle(&c, 0.0, h2 * h2);
+		const double closeness = (double)oracle_objective(&close, y);
+		assert_true(closeness > 0.0 && fabs(found.closeness_m4 - closeness) <= 1e-12 * closeness);
 		free(gradient);
 		free(y);
 		search_case_close(&c);
@@ -143,7 +147,7 @@ static void test_where_there_is_none(void **state)
 	batten_search_problem problem = search_case_problem(&c, 1.0, 0.0);
 	const batten_search_options options = reference_options();
 	batten_certificate found = search_case_certify(&c, &problem, &options, problem.start_m);
-	assert_true(isnan(found.gap_estimate));
+	assert_true(isnan(found.gap_estimate) && isnan(found.closeness_m4));
 	assert_true(found.gradient_per_m > 0.0);
 	assert_non_null(strstr(found.message, "positive definite"));
 	problem.lower_m = problem.upper_m = problem.start_m;

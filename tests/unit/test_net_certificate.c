@@ -87,6 +87,11 @@ static void check_gradient(const net_case *c, int first, int last)
 		assert_int_equal(found.free_count, count);
 		assert_true(fabsl(found.objective / objective - 1.0L) < 1e-12L);
 		assert_true(fabs(found.objective / end - 1.0) < 1e-12);
+		const double h2 = problem.half_beam_m * problem.half_beam_m;
+		const oracle_net_problem fair = net_case_oracle(c, (oracle_fairness)f, 1.0, 0.0);
+		const oracle_net_problem close = net_case_oracle(c, (oracle_fairness)f, 0.0, h2 * h2);
+		assert_true(fabsl(found.fairness / oracle_net_objective(&fair, y) - 1.0L) < 1e-12L);
+		assert_true(fabsl(found.closeness_m4 / oracle_net_objective(&close, y) - 1.0L) < 1e-12L);
 		assert_true(fabsl(found.gradient_per_m / sqrtl(square) - 1.0L) < 1e-6L);
 	}
 	free(slope);
