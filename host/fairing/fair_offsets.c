@@ -1,6 +1,5 @@
 /* Fairing by the offsets of the table themselves (thesis 7.1-7.2). */
 #include "fairing/box.h"
-#include "fairing/conclude.h"
 #include "fairing/discrepancy.h"
 #include "fairing/fairing.h"
 #include "fairing/offset_space.h"
@@ -70,12 +69,8 @@ static batten_status search(batten_fairing *fairing, const batten_fair_options *
 	if (status == BATTEN_OK || status == BATTEN_INCOMPLETE) {
 		const size_t chosen = options->weights_given ? 0 : choose(fairing, box, y, count);
 		offset_space one = { fairing, box, &chosen_search, problems[chosen], NULL };
-		fairing_space space;
-		batten_status concluded = offset_space_open(&one, &space);
-		if (concluded == BATTEN_OK)
-			concluded = fairing_conclude(fairing, options, &space, y + chosen * nodes,
-			                             &results[chosen]);
-		offset_space_close(&one);
+		const batten_status concluded = offset_space_conclude(&one, options, y + chosen * nodes,
+		                                                      &results[chosen]);
 		if (concluded != BATTEN_OK)
 			status = concluded;
 		fairing->result = results[chosen];

@@ -1,6 +1,5 @@
 /* The points of a front over the offsets of the table. */
 #include "fairing/box.h"
-#include "fairing/conclude.h"
 #include "fairing/front.h"
 #include "fairing/offset_space.h"
 
@@ -44,15 +43,11 @@ static void release(sweep *s)
 static batten_status conclude(sweep *s)
 {
 	const front *f = s->f;
+	const size_t nodes = hull_node_count(f->fairing->smoothed);
 	batten_status status = BATTEN_OK;
 	for (size_t p = 0; p < f->count && status == BATTEN_OK; p++) {
 		offset_space one = { f->fairing, &s->box, &s->how, s->problems[p], NULL };
-		fairing_space space;
-		status = offset_space_open(&one, &space);
-		if (status == BATTEN_OK)
-			status = fairing_conclude(f->fairing, f->options, &space, s->y_m + p * space.count,
-			                          &f->results[p]);
-		offset_space_close(&one);
+		status = offset_space_conclude(&one, f->options, s->y_m + p * nodes, &f->results[p]);
 		front_take_concluded(f, p);
 	}
 	return status;

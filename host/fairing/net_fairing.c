@@ -1,6 +1,5 @@
 #include "fairing/net_fairing.h"
 
-#include "fairing/conclude.h"
 #include "fairing/net_fit.h"
 #include "fairing/net_space.h"
 
@@ -67,12 +66,7 @@ batten_status net_fairing_conclude(net_fairing *n, const batten_net_problem *pro
                                    batten_search_result *result)
 {
 	net_space one = { .fairing = n->fairing, .box = &n->box, .how = &n->how, .problem = *problem };
-	fairing_space space;
-	batten_status status = net_space_open(&one, &space);
-	if (status == BATTEN_OK)
-		status = fairing_conclude(n->fairing, n->options, &space, y, result);
-	net_space_close(&one);
-	return status;
+	return net_space_conclude(&one, n->options, y, result);
 }
 
 void net_fairing_put(net_fairing *n, const double *y)

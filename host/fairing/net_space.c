@@ -1,6 +1,8 @@
 #include "fairing/net_space.h"
 
+#include "fairing/conclude.h"
 #include "fairing/net_problem.h"
+#include "fairing/space.h"
 #include "geometry/surface.h"
 
 #include <math.h>
@@ -132,7 +134,7 @@ static void find_bounds(net_space *s)
 			s->lower_m[p] = s->upper_m[p] = s->start_m[p];
 }
 
-batten_status net_space_open(net_space *space, fairing_space *out)
+static batten_status open_space(net_space *space, fairing_space *out)
 {
 	batten_context *context = space->fairing->context;
 	batten_status status = batten_surface_clone(context, space->problem.start, &space->from);
@@ -161,7 +163,7 @@ batten_status net_space_open(net_space *space, fairing_space *out)
 	return BATTEN_OK;
 }
 
-void net_space_close(net_space *space)
+static void close_space(net_space *space)
 {
 	batten_context *context = space->fairing->context;
 	batten_surface_destroy(space->from);
@@ -169,4 +171,15 @@ void net_space_close(net_space *space)
 	batten_release(context, space->lower_m);
 	batten_release(context, space->upper_m);
 	batten_release(context, space->poles_m);
+}
+
+batten_status net_space_conclude(net_space *space, const batten_fair_options *options, double *y,
+                                 batten_search_result *result)
+{
+	fairing_space seen;
+	batten_status status = open_space(space, &seen);
+	if (status == BATTEN_OK)
+		status = fairing_conclude(space->fairing, options, &seen, y, result);
+	close_space(space);
+	return status;
 }

@@ -4,12 +4,11 @@
 
 #include "fairing/fairing.h"
 #include "fairing/net_box.h"
-#include "fairing/space.h"
 
 /* One search of the fitted surface of a fairing; borrows all but what is called scratch. Its measures are
  * batten_surface_hydrostatics() at the draft of the hull, over its length. */
 typedef struct net_space {
-	const batten_fairing *fairing;
+	batten_fairing *fairing;
 	const struct net_box *box;
 	const batten_net_options *how;
 	batten_net_problem problem; /* start: the fitted surface; no target */
@@ -18,9 +17,8 @@ typedef struct net_space {
 	double *start_m, *lower_m, *upper_m, *poles_m;
 } net_space;
 
-/* The space of the search, valid as long as `space` is; net_space_close() whatever comes back. Errors:
- * MEMORY. */
-batten_status net_space_open(net_space *space, fairing_space *out);
-void net_space_close(net_space *space);
+/* fairing_conclude() of the search; what is called scratch is of no use to the caller. */
+batten_status net_space_conclude(net_space *space, const batten_fair_options *options, double *y,
+                                 batten_search_result *result);
 
 #endif

@@ -1,5 +1,8 @@
 #include "fairing/offset_space.h"
 
+#include "fairing/conclude.h"
+#include "fairing/space.h"
+
 #include <string.h>
 
 static batten_grid grid_of(const batten_fairing *fairing)
@@ -104,7 +107,7 @@ static batten_status certify(void *of, const double *target_m, double gap, doubl
 	                                               s->search, y, certificate);
 }
 
-batten_status offset_space_open(offset_space *space, fairing_space *out)
+static batten_status open_space(offset_space *space, fairing_space *out)
 {
 	const batten_hull *smoothed = space->fairing->smoothed;
 	*out = (fairing_space){ .of = space,
@@ -121,7 +124,18 @@ batten_status offset_space_open(offset_space *space, fairing_space *out)
 	return batten_hull_clone(space->fairing->context, smoothed, &space->hull);
 }
 
-void offset_space_close(offset_space *space)
+static void close_space(offset_space *space)
 {
 	batten_hull_destroy(space->hull);
+}
+
+batten_status offset_space_conclude(offset_space *space, const batten_fair_options *options,
+                                    double *y, batten_search_result *result)
+{
+	fairing_space seen;
+	batten_status status = open_space(space, &seen);
+	if (status == BATTEN_OK)
+		status = fairing_conclude(space->fairing, options, &seen, y, result);
+	close_space(space);
+	return status;
 }

@@ -4,7 +4,6 @@
 
 #include "fairing/box.h"
 #include "fairing/fairing.h"
-#include "fairing/space.h"
 
 /* Searches the offsets, y [count][waterlines][stations]; INCOMPLETE: one met its limit. Errors: INPUT (one is
  * refused), those of batten_search_batch(). */
@@ -15,16 +14,15 @@ batten_status offset_space_search(batten_fairing *fairing, size_t count,
 
 /* One search of a table; borrows all but the last. */
 typedef struct offset_space {
-	const batten_fairing *fairing;
+	batten_fairing *fairing;
 	const fairing_box *box;
 	const batten_search_options *search;
 	batten_search_problem problem;
 	batten_hull *hull; /* scratch */
 } offset_space;
 
-/* The space of the search, valid as long as `space` is; offset_space_close() whatever comes back. Errors:
- * MEMORY. */
-batten_status offset_space_open(offset_space *space, fairing_space *out);
-void offset_space_close(offset_space *space);
+/* fairing_conclude() of the search; what is called scratch is of no use to the caller. */
+batten_status offset_space_conclude(offset_space *space, const batten_fair_options *options,
+                                    double *y, batten_search_result *result);
 
 #endif
