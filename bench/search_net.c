@@ -60,6 +60,7 @@ static batten_status run_batch(const bench_settings *settings, void *user, int d
 	const bool known = device == BATTEN_DEVICE_REFERENCE;
 	batten_net_options options;
 	batten_net_options_default(&options);
+	options.search.algorithm = BATTEN_ALGORITHM_MULTILEVEL;
 	options.search.device = device;
 	options.search.precision = precision;
 	return batten_net_search_batch(settings->context, w->count, w->problems, &options,

@@ -222,13 +222,6 @@ static double get(const search_plan *plan, const void *numbers, size_t at)
 	return (double)((const float *)numbers)[at];
 }
 
-static batten_search_end end_of(const double values[BLOCK_OUTCOME_COUNT])
-{
-	if (values[BLOCK_OUTCOME_CONVERGED] == 0.0)
-		return BATTEN_SEARCH_LIMIT;
-	return values[BLOCK_OUTCOME_MOVES] == 0.0 ? BATTEN_SEARCH_STATIONARY : BATTEN_SEARCH_CONVERGED;
-}
-
 static size_t count_terms(const search_plan *plan, const batten_search_problem *problem)
 {
 	if (!problem->nodes)
@@ -260,16 +253,5 @@ void block_unpack(const search_plan *plan, const batten_search_problem *problem,
 	double values[BLOCK_OUTCOME_COUNT];
 	for (size_t v = 0; v < BLOCK_OUTCOME_COUNT; v++)
 		values[v] = get(plan, outcome, v);
-	const double probes = values[BLOCK_OUTCOME_ITERATIONS] * BLOCK_PROBES_A_NODE +
-	                      values[BLOCK_OUTCOME_TRIALS];
-	*result = (batten_search_result){
-		.end = end_of(values),
-		.iterations = (unsigned)values[BLOCK_OUTCOME_ITERATIONS],
-		.probes = (uint64_t)probes * count_terms(plan, problem),
-		.objective_start = values[BLOCK_OUTCOME_START],
-		.objective_end = values[BLOCK_OUTCOME_END],
-		.last_step_m = values[BLOCK_OUTCOME_STEP],
-	};
-	if (!isfinite(result->objective_start) || !isfinite(result->objective_end))
-		*result = search_result_refused("the objective is not finite");
+	*result = search_result_of_block(values, BLOCK_PROBES_A_NODE, count_terms(plan, problem));
 }

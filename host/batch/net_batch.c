@@ -1,5 +1,6 @@
 #include "batch/net_batch.h"
 
+#include "batch/net_block_batch.h"
 #include "batch/net_engine.h"
 #include "batch/net_reference.h"
 #include "batch/search_result.h"
@@ -36,6 +37,20 @@ static batten_status run_on_reference(batch_work *work)
 		net_reference_run(&reference, which);
 	net_reference_release(&reference);
 	return status;
+}
+
+/* Any searches of the batch can be side by side. */
+static batten_status run_by_block(net_plan *plan, search_weights *weights, size_t *order,
+                                  batten_run *run)
+{
+	size_t sound = 0;
+	for (size_t p = 0; p < plan->count; p++)
+		if (!plan->items[p].fault)
+			weights[sound++] = (search_weights){ plan->items[p].w1, plan->items[p].w2, p };
+	if (sound == 0)
+		return BATTEN_OK;
+	search_order(weights, sound, order);
+	return net_block_batch_run(plan, order, sound, run);
 }
 
 /* The searches of one stretch share their directions. */
@@ -78,8 +93,10 @@ batten_status net_batch_run(net_plan *plan, batten_run *run)
 	for (size_t p = 0; p < plan->count; p++)
 		if (plan->items[p].fault)
 			plan->results[p] = search_result_refused(plan->items[p].fault);
-	for (int stretch = -NET_STRETCH_MOST; stretch <= NET_STRETCH_MOST && status == BATTEN_OK;
-	     stretch++)
+	if (status == BATTEN_OK && plan->block)
+		status = run_by_block(plan, weights, order, run);
+	for (int stretch = -NET_STRETCH_MOST;
+	     stretch <= NET_STRETCH_MOST && !plan->block && status == BATTEN_OK; stretch++)
 		status = run_stretch(plan, stretch, weights, order, run);
 	batten_release(context, order);
 	batten_release(context, weights);

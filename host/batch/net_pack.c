@@ -24,8 +24,7 @@ static double get(const net_plan *plan, const void *numbers, size_t at)
 	return (double)((const float *)numbers)[at];
 }
 
-/* A number as it is packed. */
-static double kept(const net_plan *plan, double value)
+double net_pack_rounded(const net_plan *plan, double value)
 {
 	return plan->options.precision == BATTEN_F64 ? value : (double)(float)value;
 }
@@ -188,6 +187,17 @@ void net_pack(const net_plan *plan, size_t which, size_t lane, size_t lanes, voi
 	put(plan, settings, NET_SETTING_ROUNDING * lanes + lane, rounding * rounding);
 }
 
+void net_pack_take(const net_plan *plan, size_t which, size_t pole, double way)
+{
+	/* What follows goes exactly as far as its leader; what did not move comes back as it was. */
+	const net_item *item = &plan->items[which];
+	const size_t leader = plan->leader[pole];
+	const double from = net_start_of(item, leader) - item->target_y_m[leader];
+	const double moved = way - net_pack_rounded(plan, from);
+	plan->y_m[which * net_plan_poles(plan) + pole] = fmin(
+		fmax(net_start_of(item, pole) + moved, item->lower_y_m[pole]), item->upper_y_m[pole]);
+}
+
 void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, const void *y,
                 const void *outcome, net_room *rooms)
 {
@@ -202,12 +212,6 @@ void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, c
 		return;
 	net_rooms_of(plan, item, rooms);
 	result->probes += 2 * (uint64_t)result->iterations * net_directions_moving(plan, rooms);
-	for (size_t n = 0; n < poles; n++) {
-		/* What follows goes exactly as far as its leader; what did not move comes back as it was. */
-		const size_t leader = plan->leader[n];
-		const double way = net_start_of(item, leader) - item->target_y_m[leader];
-		const double moved = get(plan, y, leader * lanes + lane) - kept(plan, way);
-		plan->y_m[which * poles + n] = fmin(fmax(net_start_of(item, n) + moved, item->lower_y_m[n]),
-		                                    item->upper_y_m[n]);
-	}
+	for (size_t n = 0; n < poles; n++)
+		net_pack_take(plan, which, n, get(plan, y, plan->leader[n] * lanes + lane));
 }

@@ -23,6 +23,13 @@ size_t net_pack_kept_count(const net_plan *plan);
 void net_pack(const net_plan *plan, size_t which, size_t lane, size_t lanes, void *samples,
               void *arrays, void *settings, net_room *rooms);
 
+/* A number as it is packed. */
+double net_pack_rounded(const net_plan *plan, double value);
+
+/* Takes where the leader of a pole of a search ended, its way from the target as it is packed, into the plan's
+ * y_m. */
+void net_pack_take(const net_plan *plan, size_t which, size_t pole, double way);
+
 /* Takes a lane's end into the plan's y_m and results. */
 void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, const void *y,
                 const void *outcome, net_room *rooms);

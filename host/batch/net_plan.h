@@ -41,6 +41,7 @@ typedef struct net_plan {
 	batten_context *context;
 	batten_search_options options; /* with every 0 replaced by what it chooses */
 	int fairness;                  /* NET_FAIRNESS_... */
+	bool block;                    /* by the block search, else by the multilevel one */
 	net_samples u, v;
 	const size_t *leader; /* [v][u], never NULL */
 	size_t count;

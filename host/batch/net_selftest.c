@@ -2,6 +2,7 @@
 
 #include "batch/net_engine.h"
 #include "batch/net_reference.h"
+#include "shared/net_block_layout.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,8 +10,8 @@
 enum {
 	POINTS = 2,
 	SPANS = 5,
-	SAMPLES = SPANS * POINTS,
 	POLES_MOST = NET_ORDER_MOST + SPANS - 1, /* along one direction */
+	SAMPLES_MOST = (POLES_MOST - 1) * NET_POINTS_MOST,
 	NET_MOST = POLES_MOST * POLES_MOST,
 	LANES_MOST = 16,
 	SEARCHES_MOST = 2 * LANES_MOST + 1
@@ -18,8 +19,8 @@ enum {
 
 /* Searches on one net and what both sides found. */
 typedef struct test_batch {
-	int32_t first[2][SAMPLES];
-	double table[2][SAMPLES * NET_TABLE_SIZE(NET_ORDER_MOST)];
+	int32_t first[2][SAMPLES_MOST];
+	double table[2][SAMPLES_MOST * NET_TABLE_SIZE(NET_ORDER_MOST)];
 	double poles[SEARCHES_MOST][3 * NET_MOST];
 	double target[NET_MOST], lower[NET_MOST], upper[NET_MOST];
 	size_t leader[NET_MOST];
@@ -60,19 +61,21 @@ static void bernstein(size_t order, double t, double *rows)
 }
 
 /* Patches of a net, one after the other; all that is asked of it is the same on both sides. */
-static net_samples make_direction(size_t order, int32_t *first, double *table)
+static net_samples make_direction(const net_samples *like, size_t spans, int32_t *first,
+                                  double *table)
 {
-	static const double places[POINTS] = { 0.25, 0.75 };
-	for (size_t n = 0; n < SAMPLES; n++) {
+	const size_t order = like->order;
+	const size_t points = like->points ? like->points : POINTS;
+	for (size_t n = 0; n < spans * points; n++) {
 		double *row = table + n * NET_TABLE_SIZE(order);
-		bernstein(order, places[n % POINTS], row);
-		row[NET_TABLE_SIZE(order) - 1] = 0.5;
-		first[n] = (int32_t)(n / POINTS);
+		bernstein(order, ((double)(n % points) + 0.5) / (double)points, row);
+		row[NET_TABLE_SIZE(order) - 1] = 1.0 / (double)points;
+		first[n] = (int32_t)(n / points);
 	}
 	return (net_samples){ .order = order,
-		                  .poles = order + SPANS - 1,
-		                  .count = SAMPLES,
-		                  .points = POINTS,
+		                  .poles = order + spans - 1,
+		                  .count = spans * points,
+		                  .points = points,
 		                  .first = first,
 		                  .table = table };
 }
@@ -139,30 +142,28 @@ static void compare(const test_batch *t, const net_plan *plan, batten_selftest *
 	batch_engine_compare(test, worst, test->precision == BATTEN_F64 ? 1e-6 : 1e-3, "the objective");
 }
 
-static batten_status run_both(batch_engine *engine, test_batch *t, net_plan *plan)
+static batten_status run_both(batch_engine *engine, const net_selftest_sides *sides, test_batch *t,
+                              net_plan *plan)
 {
 	size_t which[SEARCHES_MOST];
-	net_reference reference = { 0 };
 	for (size_t p = 0; p < plan->count; p++)
 		which[p] = p;
 	plan->y_m = t->found_y;
 	plan->results = t->found;
 	const double begun = batten_wall_seconds();
-	batten_status status = net_engine_run(engine, plan, which, plan->count);
+	batten_status status = sides->run(engine, plan, which, plan->count);
 	engine->test.run_s = batten_wall_seconds() - begun;
 	plan->y_m = t->known_y;
 	plan->results = t->known;
 	if (status == BATTEN_OK)
-		status = net_reference_create(plan, &reference);
-	for (size_t p = 0; p < plan->count && status == BATTEN_OK; p++)
-		net_reference_run(&reference, p);
-	net_reference_release(&reference);
+		status = sides->run_known(plan);
 	if (status == BATTEN_OK)
 		compare(t, plan, &engine->test);
 	return status;
 }
 
-batten_status net_selftest_run(batch_engine *engine, const net_plan *plan)
+batten_status net_selftest_compare(batch_engine *engine, const net_plan *plan,
+                                   const net_selftest_sides *sides)
 {
 	test_batch *t = batten_allocate(plan->context, 1, sizeof *t);
 	if (!t)
@@ -174,16 +175,35 @@ batten_status net_selftest_run(batch_engine *engine, const net_plan *plan)
 		              /* Two full groups of lanes and one more: idle lanes are met too. */
 		              .count = 2 * (size_t)engine->recipe.lanes + 1,
 		              .items = t->items };
+	const size_t short_by = plan->u.order < plan->v.order ? plan->v.order - plan->u.order : 0;
 	test.options.first_step = 0.02;
 	test.options.last_step = plan->options.precision == BATTEN_F64 ? 1e-4 : 1e-3;
 	test.options.iteration_limit = 12;
-	test.u = make_direction(plan->u.order, t->first[0], t->table[0]);
-	test.v = make_direction(plan->v.order, t->first[1], t->table[1]);
+	test.u = make_direction(&plan->u, SPANS + short_by, t->first[0], t->table[0]);
+	test.v = make_direction(&plan->v, SPANS, t->first[1], t->table[1]);
 	make_searches(t, &test);
 	batten_status status = net_directions_create(&test, 1, &test.directions);
 	if (status == BATTEN_OK)
-		status = run_both(engine, t, &test);
+		status = run_both(engine, sides, t, &test);
 	net_directions_release(plan->context, &test.directions);
 	batten_release(plan->context, t);
 	return status;
+}
+
+static batten_status run_known(const net_plan *plan)
+{
+	net_reference reference = { 0 };
+	const batten_status status = net_reference_create(plan, &reference);
+	for (size_t p = 0; p < plan->count && status == BATTEN_OK; p++)
+		net_reference_run(&reference, p);
+	net_reference_release(&reference);
+	return status;
+}
+
+batten_status net_selftest_run(batch_engine *engine, const net_plan *plan)
+{
+	static const net_selftest_sides sides = { net_engine_run, run_known };
+	net_plan two_points = *plan;
+	two_points.u.points = two_points.v.points = 0;
+	return net_selftest_compare(engine, &two_points, &sides);
 }

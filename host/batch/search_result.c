@@ -30,6 +30,30 @@ batten_search_result search_result_of(const batten_search_options *options, doub
 	return result;
 }
 
+static batten_search_end block_end_of(const double values[BLOCK_OUTCOME_COUNT])
+{
+	if (values[BLOCK_OUTCOME_CONVERGED] == 0.0)
+		return BATTEN_SEARCH_LIMIT;
+	return values[BLOCK_OUTCOME_MOVES] == 0.0 ? BATTEN_SEARCH_STATIONARY : BATTEN_SEARCH_CONVERGED;
+}
+
+batten_search_result search_result_of_block(const double values[BLOCK_OUTCOME_COUNT],
+                                            unsigned probes, size_t terms)
+{
+	const double worked = values[BLOCK_OUTCOME_ITERATIONS] * probes + values[BLOCK_OUTCOME_TRIALS];
+	batten_search_result result = {
+		.end = block_end_of(values),
+		.iterations = (unsigned)values[BLOCK_OUTCOME_ITERATIONS],
+		.probes = (uint64_t)worked * terms,
+		.objective_start = values[BLOCK_OUTCOME_START],
+		.objective_end = values[BLOCK_OUTCOME_END],
+		.last_step_m = values[BLOCK_OUTCOME_STEP],
+	};
+	if (!isfinite(result.objective_start) || !isfinite(result.objective_end))
+		result = search_result_refused("the objective is not finite");
+	return result;
+}
+
 batten_search_result search_result_refused(const char *fault)
 {
 	batten_search_result result = { .end = BATTEN_SEARCH_REFUSED };

@@ -3,6 +3,7 @@
 #define BATTEN_BATCH_SEARCH_RESULT_H
 
 #include "core/context.h"
+#include "shared/block_layout.h"
 #include "shared/search_layout.h"
 
 /* The weights of search number `which`. */
@@ -18,6 +19,9 @@ void search_order(search_weights *weights, size_t count, size_t *order);
 /* What a search's outcome means. */
 batten_search_result search_result_of(const batten_search_options *options, double half_beam_m,
                                       const double values[SEARCH_OUTCOME_COUNT]);
+/* That of a block search, whose objective has so many terms, each probed so often an iteration. */
+batten_search_result search_result_of_block(const double values[BLOCK_OUTCOME_COUNT],
+                                            unsigned probes, size_t terms);
 batten_search_result search_result_refused(const char *fault);
 
 /* OK, or an error that names the first search refused or at its limit. Errors: INCOMPLETE. */

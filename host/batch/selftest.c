@@ -1,6 +1,7 @@
 /* batten_device_selftest: every kernel in the shape a device would run it in. */
 #include "batch/afloat_engine.h"
 #include "batch/block_engine.h"
+#include "batch/net_block_engine.h"
 #include "batch/net_engine.h"
 #include "batch/pass_engine.h"
 #include "batch/search_engine.h"
@@ -73,17 +74,31 @@ static batten_status test_surfaces(batten_context *context, size_t index,
 	return surface_engine_open(&plan, index, device, &engine, result);
 }
 
+/* The commonest: bending of a bicubic hull. */
+static net_plan plan_nets(batten_context *context, batten_precision precision)
+{
+	return (net_plan){ .context = context,
+		               .options = { .precision = precision },
+		               .fairness = NET_FAIRNESS_BENDING,
+		               .u = { .order = 4, .points = 4 },
+		               .v = { .order = 4, .points = 4 } };
+}
+
 static batten_status test_nets(batten_context *context, size_t index, const batten_device *device,
                                batten_precision precision, batten_selftest *result)
 {
-	/* The commonest: bending of a bicubic hull. */
-	const net_plan plan = { .context = context,
-		                    .options = { .precision = precision },
-		                    .fairness = NET_FAIRNESS_BENDING,
-		                    .u = { .order = 4 },
-		                    .v = { .order = 4 } };
+	const net_plan plan = plan_nets(context, precision);
 	batch_engine *engine = NULL;
 	return net_engine_open(&plan, index, device, &engine, result);
+}
+
+static batten_status test_net_block(batten_context *context, size_t index,
+                                    const batten_device *device, batten_precision precision,
+                                    batten_selftest *result)
+{
+	const net_plan plan = plan_nets(context, precision);
+	batch_engine *engine = NULL;
+	return net_block_engine_open(&plan, index, device, &engine, result);
 }
 
 static batten_status test_pass(batten_context *context, size_t index, const batten_device *device,
@@ -140,12 +155,12 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
 	static batten_status (*const tests[])(
 		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search, test_textbook, test_block,    test_surfaces,
-		                       test_nets,   test_passes,   test_stretches };
+		batten_selftest *) = { test_search, test_textbook,  test_block,  test_surfaces,
+		                       test_nets,   test_net_block, test_passes, test_stretches };
 	static batten_status (*const double_tests[])(batten_context *, size_t, const batten_device *,
 	                                             batten_selftest *) = { test_variants,
 		                                                                test_afloat };
-	enum { PRECISIONS = 2, BOTH = 7 * PRECISIONS, TESTS = BOTH + 2 };
+	enum { PRECISIONS = 2, BOTH = 8 * PRECISIONS, TESTS = BOTH + 2 };
 	*count = TESTS;
 	for (size_t t = 0; t < TESTS && t < capacity; t++) {
 		const batten_status opened = t < BOTH ? tests[t / PRECISIONS](context, index, &device,

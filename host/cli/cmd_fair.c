@@ -281,7 +281,7 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		{ "method", CLI_TEXT, &request->method, "NAME",
 		  "search (default), smooth, forward-approximation, forward-fit, inverse, or all" },
 		{ "search", CLI_TEXT, &request->search, "NAME",
-		  "auto (default), multilevel, block (of offsets), textbook (the thesis's, to compare with)" },
+		  "auto (default), multilevel, block, textbook (the thesis's, of offsets, to compare with)" },
 		{ "variables", CLI_TEXT, &request->variables, "NAME",
 		  "offsets (default) of the table, or net: poles of a surface" },
 		{ "fairness", CLI_TEXT, &request->fairness, "NAME",

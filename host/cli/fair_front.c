@@ -89,11 +89,10 @@ static batten_status write_surfaces(const fair_job *job, size_t count,
 	}
 }
 
-/* The picture first: it refuses a front along which nothing moves, and then nothing is written. */
 static batten_status write_files(const fair_job *job, const batten_table *table,
                                  const batten_front_point *points, const char *folder)
 {
-	static const char *const names[] = { "front.svg", "front.csv", "front.json" };
+	static const char *const names[] = { "front.csv", "front.json", "front.svg" };
 	bool made = false;
 	if (strlen(folder) + NAME_SIZE >= PATH_MAX)
 		return cli_usage("fair", "--out: found '%s', expected a shorter path", folder);
@@ -103,14 +102,12 @@ static batten_status write_files(const fair_job *job, const batten_table *table,
 	for (size_t f = 0; f < sizeof names / sizeof names[0] && status == BATTEN_OK; f++) {
 		char path[PATH_MAX + NAME_SIZE];
 		(void)snprintf(path, sizeof path, "%s/%s", folder, names[f]);
-		status = f > 0 ? batten_table_write(job->context, table, path)
+		status = f < 2 ? batten_table_write(job->context, table, path)
 		               : batten_picture_front(job->context, table->name, table->row_count, points,
 		                                      path);
 	}
 	if (status == BATTEN_OK)
 		status = write_surfaces(job, table->row_count, points, folder);
-	if (status != BATTEN_OK && made)
-		(void)rmdir(folder);
 	return status == BATTEN_OK ? status : cli_failure("fair", job->context, status);
 }
 

@@ -164,11 +164,10 @@ static batten_status read_search(const fair_request *request, batten_search_opti
 	for (int a = BATTEN_ALGORITHM_AUTO; a <= BATTEN_ALGORITHM_BLOCK; a++)
 		if (strcmp(request->search, batten_search_algorithm_text((batten_search_algorithm)a)) == 0)
 			options->algorithm = (batten_search_algorithm)a;
-	if (strcmp(request->variables, "net") == 0 && options->algorithm != BATTEN_ALGORITHM_AUTO &&
-	    options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)
-		return cli_usage("fair",
-		                 "--search: found '%s', expected auto or multilevel with --variables net",
-		                 request->search);
+	if (strcmp(request->variables, "net") == 0 && options->algorithm == BATTEN_ALGORITHM_TEXTBOOK)
+		return cli_usage(
+			"fair", "--search: found '%s', expected auto, block or multilevel with --variables net",
+			request->search);
 	options->interior_penalty = request->interior_penalty;
 	if (request->interior_penalty && options->algorithm != BATTEN_ALGORITHM_AUTO &&
 	    options->algorithm != BATTEN_ALGORITHM_MULTILEVEL)

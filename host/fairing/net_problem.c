@@ -1,6 +1,7 @@
 /* Surfaces, boxes and weights made into the plan of a batch. */
 #include "fairing/net_problem.h"
 
+#include "batch/net_block_pack.h"
 #include "batch/search_result.h"
 #include "core/gauss.h"
 #include "core/number.h"
@@ -173,13 +174,25 @@ static batten_status make_tables(net_plan *plan, const surface_topology *t, unsi
 	return status;
 }
 
-static batten_status check_algorithm(batten_context *context, batten_search_algorithm algorithm)
+/* The block search where it is asked for, or knows the plan's searches and none is. */
+static batten_status choose_algorithm(net_plan *plan)
 {
-	if (algorithm == BATTEN_ALGORITHM_AUTO || algorithm == BATTEN_ALGORITHM_MULTILEVEL)
+	const batten_search_algorithm asked = plan->options.algorithm;
+	if (asked != BATTEN_ALGORITHM_AUTO && asked != BATTEN_ALGORITHM_MULTILEVEL &&
+	    asked != BATTEN_ALGORITHM_BLOCK)
+		return batten_fail(plan->context, BATTEN_USAGE,
+		                   "search algorithm %s: auto, block or multilevel is expected for a net",
+		                   batten_search_algorithm_text(asked));
+	if (asked == BATTEN_ALGORITHM_MULTILEVEL || plan->count == 0)
 		return BATTEN_OK;
-	return batten_fail(context, BATTEN_USAGE,
-	                   "search algorithm %s: auto or multilevel is expected for a net",
-	                   batten_search_algorithm_text(algorithm));
+	const batten_status status = net_block_knows(plan, &plan->block);
+	if (status == BATTEN_OK && asked == BATTEN_ALGORITHM_BLOCK && !plan->block)
+		return batten_fail(
+			plan->context, BATTEN_USAGE,
+			"the block search over nets knows bending and mean on nets whose table is "
+			"of moderate size, not %s on %zu x %zu poles: multilevel or auto is expected",
+			batten_fairness_text((batten_fairness)plan->fairness), plan->u.poles, plan->v.poles);
+	return status;
 }
 
 static batten_status take_batch(net_problems *p, const batten_net_problem *problems,
@@ -223,11 +236,11 @@ batten_status net_problems_open(batten_context *context, size_t count,
 			context, BATTEN_USAGE,
 			"an interior penalty is of searches over offsets: none is expected over "
 			"nets");
-	if (status == BATTEN_OK)
-		status = check_algorithm(context, chosen.search.algorithm);
 	out->plan.fairness = (int)chosen.fairness;
 	if (status == BATTEN_OK && count > 0)
 		status = take_batch(out, problems, &chosen);
+	if (status == BATTEN_OK)
+		status = choose_algorithm(&out->plan);
 	return status;
 }
 

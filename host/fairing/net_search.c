@@ -21,7 +21,7 @@ batten_status batten_net_search_batch(batten_context *context, size_t count,
 	if (status != BATTEN_OK)
 		return status;
 	for (size_t n = 0; n < count; n++)
-		results[n].algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+		results[n].algorithm = p.plan.block ? BATTEN_ALGORITHM_BLOCK : BATTEN_ALGORITHM_MULTILEVEL;
 	if (run)
 		*run = told;
 	return search_results_judge(context, count, results);

@@ -47,6 +47,22 @@ SHARED_FUNCTION void block_solve(const block_state *s, int turn, const real *alp
 		block_solve_line(s, line, turn, alpha);
 }
 
+/* Every offset goes by itself, and of a search there is nothing to know beforehand. */
+SHARED_FUNCTION void block_follow(const block_state *s)
+{
+	(void)s;
+}
+
+SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, real fair,
+                                  real close)
+{
+	(void)s;
+	(void)begun;
+	(void)fresh;
+	(void)fair;
+	(void)close;
+}
+
 SHARED_FUNCTION real block_trial_objective(const block_state *s)
 {
 	const STATE real *trial = block_array(s, BLOCK_STATE_TRIAL);

@@ -1,4 +1,7 @@
-/* Block searches in lanes: a lane that has finished takes the next search of its group. */
+/* Block searches in lanes: a lane that has finished takes the next search of its group. Defined before this is
+ * included, beside what block_search.h asks for:
+ *   void block_arrive(const block_state *, int begun, mask fresh, real fair, real close)
+ *                      what is to be known of searches that are fresh in their lanes; begun: there are any */
 #ifndef BATTEN_SHARED_BLOCK_LANES_H
 #define BATTEN_SHARED_BLOCK_LANES_H
 
@@ -79,6 +82,8 @@ SHARED_FUNCTION void block_settings(const block_memory *m, const block_queue *q,
 	limits->longest = m->lanes[BLOCK_SETTING_LONGEST];
 	limits->last_step = m->lanes[BLOCK_SETTING_LAST_STEP];
 	limits->far = m->lanes[BLOCK_SETTING_CURVATURE];
+	limits->fair = m->lanes[BLOCK_SETTING_FAIR];
+	limits->close = m->lanes[BLOCK_SETTING_CLOSE];
 	WAIT;
 }
 
@@ -154,6 +159,7 @@ SHARED_FUNCTION int block_change_lanes(const block_state *s, const block_memory 
 	WAIT;
 	block_begin(p, m->lanes[0] > zero, m->lanes[1] > zero);
 	block_settings(m, q, limits);
+	block_arrive(s, begun, p->fresh > zero, limits->fair, limits->close);
 	return any;
 }
 

@@ -12,7 +12,10 @@ enum {
 	BLOCK_INPUT_TARGET,
 	BLOCK_INPUT_BEND,  /* w1 dx dz where the energy has a term, else 0 */
 	BLOCK_INPUT_CLOSE, /* w2 dx dz / h^4 times the node's factor */
-	BLOCK_INPUT_COUNT
+	BLOCK_INPUT_COUNT,
+	/* Of a net, whose start and bounds are ways from the target, instead: */
+	BLOCK_INPUT_X = BLOCK_INPUT_BEND,
+	BLOCK_INPUT_Z = BLOCK_INPUT_CLOSE
 };
 
 /* One value a search each. */
@@ -20,6 +23,8 @@ enum {
 	BLOCK_SETTING_LONGEST,   /* no offset moves further in an iteration */
 	BLOCK_SETTING_LAST_STEP, /* the search ends when none moves further */
 	BLOCK_SETTING_CURVATURE, /* how far second derivatives are probed */
+	BLOCK_SETTING_FAIR,      /* of a net: w1 */
+	BLOCK_SETTING_CLOSE,     /* of a net: w2 / h^4 */
 	BLOCK_SETTING_COUNT
 };
 enum {

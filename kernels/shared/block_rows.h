@@ -6,6 +6,12 @@
 #include "block_layout.h"
 #include "dialect.h"
 
+/* Values of one search a lane: of settings. */
+typedef struct block_limits {
+	real longest, last_step, far;
+	real fair, close;
+} block_limits;
+
 /* What holds a search where it is: diagonals are raised by a part of them and by a weight. */
 typedef struct block_stay {
 	real part, weight;

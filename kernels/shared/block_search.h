@@ -10,6 +10,8 @@
  *   void block_solve(const block_state *, int turn, const real *alpha)
  *                      the bottom of the parabola, slopes less the changes remembered, alpha of each, into the
  *                      way; its products with the changes into the first BLOCK_MEMORY sums
+ *   void block_follow(const block_state *)
+ *                      gives the way to what goes with others
  *   real block_trial_objective(const block_state *)
  *                      the objective at the trial */
 #ifndef BATTEN_SHARED_BLOCK_SEARCH_H
@@ -53,11 +55,6 @@ typedef struct block_progress {
 	real inverse[BLOCK_MEMORY]; /* 1 / (move . change) of each pair, newest first; 0: not used */
 	real old_1, old_2, older;   /* move . change of pairs: 1 with 0, 2 with 0, 2 with 1 */
 } block_progress;
-
-/* Values of one search a lane: of settings. */
-typedef struct block_limits {
-	real longest, last_step, far, iterations;
-} block_limits;
 
 /* Which pairs of move and change tell of the curvature here; one made under other bounds does not, nor one
  * from the slopes of the first iteration. */
@@ -145,6 +142,7 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
 		block_way_line(s, line, turn, alpha);
 	WAIT;
+	block_follow(s);
 	const real longest = block_most(s, 0);
 	const real fall = block_total(s, 1);
 	const real square = block_total(s, 2);

@@ -144,7 +144,6 @@ refuses 2 '--lock: ' --variables net --lock pole:1
 refuses 2 '--lock edge: ' --variables net --lock edge:bow
 refuses 2 '--lower bounds' --variables net --lower "$hull"
 refuses 2 'an interior penalty is\|--interior-penalty is about offsets' --variables net --front 1:10:3 --interior-penalty
-refuses 2 'no weight of the front moves anything' --variables net --net 8x7 --front 1:10:3 --max-distance 0mm
 refuses 2 '--front sweeps w2/w1' --variables net --front 1:10:3 --w1 1 --w2 1
 refuses 2 'found row 7' --variables net --net 8x7 --front 1:10:3 --lock row:7
 refuses 3 'w1 = 1, w2 = 1e+30: weights' --variables net --front 1e3:1e30:2 --precision f32

@@ -20,6 +20,7 @@ typedef struct gap_limit {
 	/* Far from the start the objective has several minima: the one the search found is what Newton's
 	 * method finds from the search's end. */
 	bool nearest;
+	batten_search_algorithm algorithm; /* filled by check() */
 } gap_limit;
 
 static unsigned search(const net_case *c, const gap_limit *limit, double w2, double *y)
@@ -32,6 +33,7 @@ static unsigned search(const net_case *c, const gap_limit *limit, double w2, dou
 	options.search.precision = limit->precision;
 	options.search.iteration_limit = limit->iterations;
 	options.fairness = (batten_fairness)limit->fairness;
+	options.search.algorithm = limit->algorithm;
 	(void)batten_net_search_batch(c->context, 1, &problem, &options, y, &result, NULL);
 	assert_int_not_equal(result.end, BATTEN_SEARCH_REFUSED);
 	return result.iterations;
@@ -58,7 +60,7 @@ static oracle_minimum known_minimum(const net_case *c, const gap_limit *limit, d
 	return minimum;
 }
 
-static void check(const char *name, const net_case *c, double w2, gap_limit limit)
+static void check_one(const char *name, const net_case *c, double w2, gap_limit limit)
 {
 	static const char *const names[] = { "bending", "mean", "gauss" };
 	const oracle_net_problem problem = net_case_oracle(c, limit.fairness, 1.0, w2);
@@ -69,12 +71,25 @@ static void check(const char *name, const net_case *c, double w2, gap_limit limi
 	/* The oracle's own value of the net the search ended with. */
 	const double found = (double)oracle_net_objective(&problem, y);
 	const double gap = found / (double)minimum.objective - 1.0;
-	print_message("%s %s %s w2/w1 %g: gap %.2e, %u iterations, %zu of %zu poles at a bound\n", name,
-	              names[limit.fairness], limit.precision == BATTEN_F64 ? "f64" : "f32", w2, gap,
-	              iterations, minimum.at_bound, minimum.variables);
+	print_message("%s %s %s %s w2/w1 %g: gap %.2e, %u iterations, %zu of %zu poles at a bound\n",
+	              name, batten_search_algorithm_text(limit.algorithm), names[limit.fairness],
+	              limit.precision == BATTEN_F64 ? "f64" : "f32", w2, gap, iterations,
+	              minimum.at_bound, minimum.variables);
 	free(y);
 	assert_true(gap <= limit.most);
 	assert_true(gap >= -1e-9);
+}
+
+/* By both searches, where both know the fairness. */
+static void check(const char *name, const net_case *c, double w2, gap_limit limit)
+{
+	limit.algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+	check_one(name, c, w2, limit);
+	/* Its iterations cost a hundredth of the other's. */
+	limit.algorithm = BATTEN_ALGORITHM_BLOCK;
+	limit.iterations *= 2;
+	if (limit.fairness != ORACLE_FAIRNESS_GAUSS)
+		check_one(name, c, w2, limit);
 }
 
 static const double ratios[] = { 10.0, 1e3, 1e5 };
@@ -86,7 +101,8 @@ static void check_ratios(const char *name, net_case c, gap_limit limit)
 	net_case_close(&c);
 }
 
-static const gap_limit bending = { ORACLE_FAIRNESS_BENDING, 100, 1e-6, BATTEN_F64, false };
+static const gap_limit bending = { ORACLE_FAIRNESS_BENDING, 100, 1e-6, BATTEN_F64, false,
+	                               BATTEN_ALGORITHM_AUTO };
 
 static void test_wigley(void **state)
 {
@@ -118,14 +134,16 @@ static void test_npl(void **state)
 static void test_f32(void **state)
 {
 	(void)state;
-	const gap_limit limit = { ORACLE_FAIRNESS_BENDING, 100, 5e-5, BATTEN_F32, false };
+	const gap_limit limit = { ORACLE_FAIRNESS_BENDING, 100, 5e-5, BATTEN_F32, false,
+		                      BATTEN_ALGORITHM_AUTO };
 	check_ratios("wigley", net_case_wigley(10.0), limit);
 }
 
 static void test_mean(void **state)
 {
 	(void)state;
-	const gap_limit limit = { ORACLE_FAIRNESS_MEAN, 100, 1e-6, BATTEN_F64, false };
+	const gap_limit limit = { ORACLE_FAIRNESS_MEAN, 100,   1e-6,
+		                      BATTEN_F64,           false, BATTEN_ALGORITHM_AUTO };
 	check_ratios("wigley", net_case_wigley(10.0), limit);
 	check_ratios("npl within 0.1 h", net_case_npl(0.1), limit);
 }
@@ -133,7 +151,8 @@ static void test_mean(void **state)
 static void test_gauss(void **state)
 {
 	(void)state;
-	const gap_limit limit = { ORACLE_FAIRNESS_GAUSS, 100, 1e-6, BATTEN_F64, true };
+	const gap_limit limit = { ORACLE_FAIRNESS_GAUSS, 100, 1e-6, BATTEN_F64, true,
+		                      BATTEN_ALGORITHM_AUTO };
 	check_ratios("wigley", net_case_wigley(10.0), limit);
 }
 

@@ -1,5 +1,5 @@
 /* Whole net searches in many shapes of the kernel, lanes and work-items, local and global state, both
- * precisions, every fairness, equal the C path bit for bit. */
+ * precisions, every fairness, by both searches, equal the C path bit for bit. */
 #include "support/net_case.h"
 
 #include <math.h>
@@ -17,6 +17,7 @@ typedef struct net_shape {
 	batten_precision precision;
 	unsigned lanes, work_group;
 	batten_fairness fairness;
+	batten_search_algorithm algorithm; /* both that know the fairness, one after the other */
 } net_shape;
 
 static void run(const net_case *c, const net_shape *shape, int device, double *y,
@@ -32,6 +33,7 @@ static void run(const net_case *c, const net_shape *shape, int device, double *y
 	options.search.lanes = shape->lanes;
 	options.search.work_group = shape->work_group;
 	options.search.iteration_limit = 8;
+	options.search.algorithm = shape->algorithm;
 	for (int p = 0; p < COUNT; p++)
 		problems[p] = net_case_problem(c, 1.0, pow(10.0, 1.0 + 0.5 * p));
 	memset(results, 0, COUNT * sizeof *results);
@@ -42,7 +44,7 @@ static void run(const net_case *c, const net_shape *shape, int device, double *y
 	assert_true(told.strict);
 }
 
-static void check(const net_case *c, net_shape shape)
+static void check_one(const net_case *c, net_shape shape)
 {
 	batten_search_result found[COUNT];
 	batten_search_result known[COUNT];
@@ -65,13 +67,22 @@ static void check(const net_case *c, net_shape shape)
 	free(known_y);
 }
 
+static void check(const net_case *c, net_shape shape)
+{
+	shape.algorithm = BATTEN_ALGORITHM_MULTILEVEL;
+	check_one(c, shape);
+	shape.algorithm = BATTEN_ALGORITHM_BLOCK;
+	if (shape.fairness == BATTEN_FAIRNESS_BENDING || shape.fairness == BATTEN_FAIRNESS_MEAN)
+		check_one(c, shape);
+}
+
 static void test_lanes(void **state)
 {
 	(void)state;
 	net_case c = net_case_npl(0.1);
-	check(&c, (net_shape){ BATTEN_F64, 1, 1, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F64, 8, 1, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F32, 16, 1, BATTEN_FAIRNESS_BENDING });
+	check(&c, (net_shape){ BATTEN_F64, 1, 1, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F64, 8, 1, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F32, 16, 1, BATTEN_FAIRNESS_BENDING, 0 });
 	net_case_close(&c);
 }
 
@@ -79,9 +90,9 @@ static void test_work_groups(void **state)
 {
 	(void)state;
 	net_case c = net_case_wigley(0.1);
-	check(&c, (net_shape){ BATTEN_F64, 1, 7, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F64, 1, 64, BATTEN_FAIRNESS_BENDING });
-	check(&c, (net_shape){ BATTEN_F32, 2, 3, BATTEN_FAIRNESS_BENDING });
+	check(&c, (net_shape){ BATTEN_F64, 1, 7, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F64, 1, 64, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F32, 2, 3, BATTEN_FAIRNESS_BENDING, 0 });
 	net_case_close(&c);
 }
 
@@ -90,8 +101,8 @@ static void test_fairness(void **state)
 	(void)state;
 	net_case c = net_case_wigley(0.1);
 	for (int f = BATTEN_FAIRNESS_MEAN; f <= BATTEN_FAIRNESS_VARIATION; f++) {
-		check(&c, (net_shape){ BATTEN_F64, 0, 0, (batten_fairness)f });
-		check(&c, (net_shape){ BATTEN_F32, 0, 0, (batten_fairness)f });
+		check(&c, (net_shape){ BATTEN_F64, 0, 0, (batten_fairness)f, 0 });
+		check(&c, (net_shape){ BATTEN_F32, 0, 0, (batten_fairness)f, 0 });
 	}
 	net_case_close(&c);
 }

@@ -184,7 +184,7 @@ static void test_poles_that_move_together(void **state)
 	const size_t rows = 10;
 	size_t leader[160];
 	double *y = room_for(&c);
-	batten_net_options options = options_of(BATTEN_FAIRNESS_BENDING, 10);
+	batten_net_options options = options_of(BATTEN_FAIRNESS_BENDING, 4);
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 100.0);
 	batten_certificate end;
 	assert_int_equal(c.poles, columns * rows);

@@ -116,6 +116,12 @@ static void test_options(void **state)
 	r.options = sound;
 	r.options.search.lanes = 3;
 	expect_usage(&r, 1, &r.problem, "3 lanes");
+	r.options = sound;
+	r.options.search.algorithm = BATTEN_ALGORITHM_TEXTBOOK;
+	expect_usage(&r, 1, &r.problem, "search algorithm textbook");
+	r.options.search.algorithm = BATTEN_ALGORITHM_BLOCK;
+	r.options.fairness = BATTEN_FAIRNESS_GAUSS;
+	expect_usage(&r, 1, &r.problem, "not gauss on 16 x 10 poles");
 	close_refusal(&r);
 }
 
@@ -185,7 +191,10 @@ static void test_memory(void **state)
 	refusal r = open_refusal();
 	failing_heap heap = { 0 };
 	batten_context *context = failing_heap_context(&heap);
+	r.options.search.algorithm = BATTEN_ALGORITHM_MULTILEVEL;
 	assert_true(failing_heap_each(&heap, context, search_once, &r) > 20);
+	r.options.search.algorithm = BATTEN_ALGORITHM_BLOCK;
+	assert_true(failing_heap_each(&heap, context, search_once, &r) > 15);
 	failing_heap_close(&heap, context);
 	close_refusal(&r);
 }

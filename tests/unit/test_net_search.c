@@ -1,5 +1,5 @@
 /* batten_net_search_batch: its objective against the oracle, fixed poles, leaders, independence of the
- * batch. What it refuses: test_net_refusals.c; its directions: test_net_directions.c. */
+ * batch, by both searches. What it refuses: test_net_refusals.c; its directions: test_net_directions.c. */
 #include "support/net_case.h"
 
 #include <math.h>
@@ -11,13 +11,21 @@
 
 #include <cmocka.h>
 
-static batten_net_options reference_options(unsigned iterations)
+/* Of the algorithm that a test runs with. */
+static batten_net_options reference_options(void *const *state, unsigned iterations)
 {
 	batten_net_options options;
 	batten_net_options_default(&options);
 	options.search.device = BATTEN_DEVICE_REFERENCE;
 	options.search.iteration_limit = iterations;
+	options.search.algorithm = *(const batten_search_algorithm *)*state;
 	return options;
+}
+
+/* How many of the fairnesses, in their order, the algorithm knows: at most so many. */
+static int known_fairness(void *const *state, int most)
+{
+	return *(const batten_search_algorithm *)*state == BATTEN_ALGORITHM_BLOCK ? 2 : most;
 }
 
 static void search(const net_case *c, size_t count, const batten_net_problem *problems,
@@ -30,14 +38,14 @@ static void search(const net_case *c, size_t count, const batten_net_problem *pr
 }
 
 /* At the start and at the end, for every fairness that has a closed density. */
-static void check_objective(const net_case *c)
+static void check_objective(void *const *state, const net_case *c)
 {
 	double *y = calloc(c->poles, sizeof *y);
 	assert_non_null(y);
-	for (int f = 0; f < 3; f++) {
+	for (int f = 0; f < known_fairness(state, 3); f++) {
 		const oracle_net_problem known = net_case_oracle(c, (oracle_fairness)f, 1.0, 100.0);
 		const batten_net_problem problem = net_case_problem(c, 1.0, 100.0);
-		batten_net_options options = reference_options(2);
+		batten_net_options options = reference_options(state, 2);
 		batten_search_result result = { 0 };
 		options.fairness = (batten_fairness)f;
 		const double start = (double)oracle_net_objective(&known, c->target);
@@ -52,22 +60,20 @@ static void check_objective(const net_case *c)
 
 static void test_objective(void **state)
 {
-	(void)state;
 	net_case c = net_case_wigley(0.1);
-	check_objective(&c);
+	check_objective(state, &c);
 	net_case_close(&c);
 	c = net_case_npl(0.1);
-	check_objective(&c);
+	check_objective(state, &c);
 	net_case_close(&c);
 }
 
 /* w2 0: h^2 times the integral of the variation of curvature, by the oracle's differences. */
 static void test_variation(void **state)
 {
-	(void)state;
 	net_case c = net_case_wigley(0.1);
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 0.0);
-	batten_net_options options = reference_options(1);
+	batten_net_options options = reference_options(state, 1);
 	batten_search_result result = { 0 };
 	double *y = calloc(c.poles, sizeof *y);
 	long double at[4];
@@ -99,7 +105,6 @@ static void test_variation(void **state)
 /* Fixed poles keep every bit, the others stay in their boxes and one of them moves. */
 static void test_fixed_poles(void **state)
 {
-	(void)state;
 	net_case c = net_case_npl(0.01);
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 10.0);
 	double *y = calloc(c.poles, sizeof *y);
@@ -107,7 +112,7 @@ static void test_fixed_poles(void **state)
 	for (size_t n = 0; n < c.poles; n += 3)
 		c.lower[n] = c.upper[n] = c.target[n];
 	for (int precision = 0; precision < 2; precision++) {
-		batten_net_options options = reference_options(5);
+		batten_net_options options = reference_options(state, 5);
 		batten_search_result result = { 0 };
 		size_t moved = 0;
 		options.search.precision = (batten_precision)precision;
@@ -127,11 +132,10 @@ static void test_fixed_poles(void **state)
 /* What follows goes as far as its leader, and both stop where the first of them meets its bound. */
 static void test_leaders(void **state)
 {
-	(void)state;
 	net_case c = net_case_wigley(0.05);
 	const size_t columns = c.net.count_u;
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 10.0);
-	batten_net_options options = reference_options(30);
+	batten_net_options options = reference_options(state, 30);
 	batten_search_result result = { 0 };
 	size_t *leader = calloc(c.poles, sizeof *leader);
 	double *y = calloc(c.poles, sizeof *y);
@@ -160,13 +164,12 @@ static void test_leaders(void **state)
 /* A search alone, in a batch, and in the batch the other way round: the same bits. */
 static void test_batch_independence(void **state)
 {
-	(void)state;
 	enum { COUNT = 5 };
 	net_case c = net_case_wigley(0.1);
 	batten_surface *wide = NULL;
 	batten_net_problem problems[COUNT];
 	batten_search_result results[COUNT] = { 0 };
-	const batten_net_options options = reference_options(6);
+	const batten_net_options options = reference_options(state, 6);
 	double *y = calloc(2 * COUNT * c.poles, sizeof *y);
 	assert_non_null(y);
 	/* A hull eight times as long takes other levels of hats. */
@@ -212,13 +215,12 @@ static void test_batch_independence(void **state)
 /* The dimensions of the hull do not matter: four times as large, the same search. */
 static void test_scale(void **state)
 {
-	(void)state;
 	net_case c = net_case_wigley(0.1);
-	for (int f = 0; f < 4; f++) {
+	for (int f = 0; f < known_fairness(state, 4); f++) {
 		batten_surface *large = NULL;
 		const double matrix[9] = { 4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0 };
 		const double shift[3] = { 0.0, 0.0, 0.0 };
-		batten_net_options options = reference_options(4);
+		batten_net_options options = reference_options(state, 4);
 		batten_search_result results[2] = { 0 };
 		double *y = calloc(2 * c.poles, sizeof *y);
 		double *bounds = calloc(2 * c.poles, sizeof *bounds);
@@ -248,12 +250,27 @@ static void test_scale(void **state)
 	net_case_close(&c);
 }
 
+#define BY(algorithm, test)                                                                        \
+	{                                                                                              \
+#test " by " #algorithm, test, NULL, NULL, &algorithm                                      \
+	}
+
 int main(void)
 {
+	static batten_search_algorithm multilevel = BATTEN_ALGORITHM_MULTILEVEL;
+	static batten_search_algorithm block = BATTEN_ALGORITHM_BLOCK;
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_objective),          cmocka_unit_test(test_variation),
-		cmocka_unit_test(test_fixed_poles),        cmocka_unit_test(test_leaders),
-		cmocka_unit_test(test_batch_independence), cmocka_unit_test(test_scale),
+		BY(multilevel, test_objective),
+		BY(block, test_objective),
+		BY(multilevel, test_variation),
+		BY(multilevel, test_fixed_poles),
+		BY(block, test_fixed_poles),
+		BY(multilevel, test_leaders),
+		BY(block, test_leaders),
+		BY(multilevel, test_batch_independence),
+		BY(block, test_batch_independence),
+		BY(multilevel, test_scale),
+		BY(block, test_scale),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

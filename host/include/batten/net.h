@@ -29,7 +29,8 @@ typedef struct batten_net_problem {
 
 typedef struct batten_net_options {
 	size_t struct_size;
-	/* first_step 0.01, else as its own default; nets know MULTILEVEL only, which is what AUTO takes */
+	/* first_step 0.01, else as its own default; AUTO takes BLOCK for bending and mean, else, and where the net's
+	 * table is too large (about 5000 poles in a square), MULTILEVEL */
 	batten_search_options search;
 	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING */
 	unsigned gauss_points;    /* a knot span and direction, 1..16; 0 takes the order */
@@ -42,11 +43,11 @@ typedef struct batten_net_options {
 BATTEN_API void batten_net_options_default(batten_net_options *options);
 
 /* Runs count searches over surfaces of one topology (orders, counts and knots; without weights; at
- * most 65536 poles) by the multilevel Hooke-Jeeves method (kernels/README.md). y_m is the caller's,
+ * most 65536 poles) by the block search or the multilevel one (kernels/README.md). y_m is the caller's,
  * [count][count_v][count_u]; results [count]; options and run may be NULL. The result of a search
  * does not depend on the others, on their order or number, nor (when strict) on what ran it.
  * Returns INCOMPLETE when a search was refused (then its y_m is not written) or met its limit.
- * Errors: USAGE (options, a leader that is out of range or follows another, surfaces of different
+ * Errors: USAGE (options, BLOCK where it does not apply, a leader that is out of range or follows another, surfaces of different
  * topology or with weights), DEVICE, KERNEL, MEMORY. */
 BATTEN_API batten_status batten_net_search_batch(batten_context *context, size_t count,
                                                  const batten_net_problem *problems,

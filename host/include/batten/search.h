@@ -50,8 +50,9 @@ typedef enum batten_search_algorithm {
 	BATTEN_ALGORITHM_AUTO,       /* BLOCK where it applies, else MULTILEVEL */
 	BATTEN_ALGORITHM_TEXTBOOK,   /* Hooke and Jeeves as published (thesis 7.2): to compare with */
 	BATTEN_ALGORITHM_MULTILEVEL, /* probes along hats of several widths: any objective */
-	BATTEN_ALGORITHM_BLOCK,      /* whole lines at once, from probes of the integrand: plain bending
-	                                of offset grids; bench/README.md says how much faster */
+	BATTEN_ALGORITHM_BLOCK, /* whole lines, or all poles, at once, from probes of the integrand: plain
+	                                bending of offset grids, bending and mean of nets; bench/README.md says
+	                                how much faster */
 } batten_search_algorithm;
 /* "auto", "textbook", "multilevel", "block". */
 BATTEN_API const char *batten_search_algorithm_text(batten_search_algorithm algorithm);

@@ -1,0 +1,191 @@
+#include "batch/net_block_engine.h"
+
+#include "batch/net_block_pack.h"
+#include "batch/net_block_selftest.h"
+#include "kernels/kernel_sources.h"
+
+#include <stdio.h>
+
+/* Searches a lane of a launch and groups a compute unit: lanes that come free take the next search, so the more of
+ * them, the less do lanes stand idle. A CPU has one group a unit, whose state fills its caches. */
+enum { SEARCHES_A_LANE = 8, GROUPS_A_GPU_UNIT = 8 };
+
+static batten_status run_selftest(batch_engine *engine, const void *plan)
+{
+	return net_block_selftest_run(engine, plan);
+}
+
+batten_status net_block_engine_open(const net_plan *plan, size_t index, const batten_device *device,
+                                    batch_engine **out, batten_selftest *result)
+{
+	batch_engine_recipe recipe = { .kernel = "net_block",
+		                           .source = kernel_source_net_block,
+		                           .device = index,
+		                           .precision = plan->options.precision,
+		                           .lanes = plan->options.lanes,
+		                           .work_group = plan->options.work_group };
+	net_block_shape shape;
+	const batten_status status = net_block_shape_of(plan, &shape);
+	if (status != BATTEN_OK)
+		return status;
+	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	(void)snprintf(recipe.options, sizeof recipe.options,
+	               "-DNET_FAIRNESS=%d -DNET_ORDER_U=%zu -DNET_ORDER_V=%zu -DNET_POINTS_U=%zu "
+	               "-DNET_POINTS_V=%zu",
+	               plan->fairness, shape.u->order, shape.v->order, shape.u->points,
+	               shape.v->points);
+	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
+}
+
+static size_t units_of(const batch_engine *engine)
+{
+	const batten_device *device = batch_engine_device(engine);
+	const size_t units = device->compute_units ? device->compute_units : 1;
+	return device->is_cpu ? units : GROUPS_A_GPU_UNIT * units;
+}
+
+size_t net_block_engine_block(const batch_engine *engine, const net_plan *plan)
+{
+	(void)plan;
+	return units_of(engine) * engine->recipe.lanes * SEARCHES_A_LANE;
+}
+
+/* Host memory and device buffers of one launch. */
+typedef struct block {
+	const net_plan *plan;
+	net_block_shape shape;
+	size_t count, share, groups;
+	size_t number, input_bytes; /* of a number; of a search */
+	bool alone;
+	int32_t numbers[NET_BLOCK_SHAPE_SIZE];
+	void *tables, *inputs, *settings, *outcomes;
+	int32_t *followers, *turns;
+	net_room *rooms;
+	device_buffer *shape_on, *first_u_on, *first_v_on, *followers_on, *tables_on, *inputs_on,
+		*settings_on, *outcomes_on, *turns_on, *state_on;
+} block;
+
+static void block_release(batch_engine *engine, block *b)
+{
+	device_buffer *buffers[] = { b->shape_on,  b->first_u_on, b->first_v_on,  b->followers_on,
+		                         b->tables_on, b->inputs_on,  b->settings_on, b->outcomes_on,
+		                         b->turns_on,  b->state_on };
+	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
+		device_buffer_destroy(buffers[i]);
+	void *memory[] = { b->tables, b->inputs,    b->settings, b->outcomes,
+		               b->turns,  b->followers, b->rooms };
+	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
+		batten_release(engine->context, memory[i]);
+}
+
+/* Every group gets the same number of searches, whole lanes of them. */
+static batten_status block_allocate(const batch_engine *engine, block *b)
+{
+	batten_context *context = engine->context;
+	const size_t lanes = engine->recipe.lanes;
+	const size_t units = units_of(engine);
+	const size_t poles = net_plan_poles(b->plan);
+	const batten_status status = net_block_shape_of(b->plan, &b->shape);
+	if (status != BATTEN_OK)
+		return status;
+	b->number = batch_engine_number_size(engine->recipe.precision);
+	b->alone = engine->recipe.work_group == 1;
+	b->share = ((b->count + units - 1) / units + lanes - 1) / lanes * lanes;
+	b->groups = (b->count + b->share - 1) / b->share;
+	b->input_bytes = BLOCK_INPUT_COUNT * poles * b->number;
+	b->tables = batten_allocate(context, net_block_table_count(&b->shape), b->number);
+	b->inputs = batten_allocate(context, b->count, b->input_bytes);
+	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
+	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);
+	b->turns = batten_allocate(context, b->groups, sizeof *b->turns);
+	b->followers = batten_allocate(context, b->shape.followers + 1, 2 * sizeof *b->followers);
+	b->rooms = batten_allocate(context, poles, sizeof *b->rooms);
+	return b->tables && b->inputs && b->settings && b->outcomes && b->turns && b->followers &&
+	               b->rooms
+	           ? BATTEN_OK
+	           : BATTEN_MEMORY;
+}
+
+static void block_fill(const size_t *which, block *b)
+{
+	net_block_pack_shape(b->plan, &b->shape, b->alone, b->numbers);
+	b->numbers[NET_BLOCK_COUNT] = (int32_t)b->count;
+	b->numbers[NET_BLOCK_SHARE] = (int32_t)b->share;
+	net_block_pack_followers(b->plan, b->followers);
+	net_block_pack_tables(b->plan, &b->shape, b->tables);
+	for (size_t i = 0; i < b->count; i++)
+		net_block_pack(b->plan, which[i], (char *)b->inputs + i * b->input_bytes,
+		               (char *)b->settings + i * BLOCK_SETTING_COUNT * b->number, b->rooms);
+}
+
+static batten_status block_upload(const batch_engine *engine, block *b)
+{
+	const size_t state = net_block_state_numbers(&b->shape, b->alone) * engine->recipe.lanes *
+	                     b->number;
+	/* An OpenCL buffer cannot be empty: the list of followers has room for one more. */
+	const batch_engine_upload uploads[] = {
+		{ &b->shape_on, sizeof b->numbers, b->numbers },
+		{ &b->first_u_on, b->shape.u->count * sizeof *b->shape.u->first, b->shape.u->first },
+		{ &b->first_v_on, b->shape.v->count * sizeof *b->shape.v->first, b->shape.v->first },
+		{ &b->followers_on, (b->shape.followers + 1) * 2 * sizeof *b->followers, b->followers },
+		{ &b->tables_on, net_block_table_count(&b->shape) * b->number, b->tables },
+		{ &b->inputs_on, b->count * b->input_bytes, b->inputs },
+		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
+		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
+		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
+		{ &b->state_on, b->groups * state, NULL },
+	};
+	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
+}
+
+static batten_status block_launch(const batch_engine *engine, block *b)
+{
+	const size_t lane_bytes = engine->recipe.lanes * b->number;
+	const size_t group = engine->recipe.work_group;
+	const device_argument arguments[] = {
+		{ .buffer = b->shape_on },
+		{ .buffer = b->first_u_on },
+		{ .buffer = b->first_v_on },
+		{ .buffer = b->followers_on },
+		{ .buffer = b->tables_on },
+		{ .buffer = b->inputs_on },
+		{ .buffer = b->settings_on },
+		{ .buffer = b->outcomes_on },
+		{ .buffer = b->turns_on },
+		{ .buffer = b->state_on },
+		{ .size = net_block_sum_numbers(&b->shape) * lane_bytes },
+		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
+	};
+	batten_status status = device_launch(engine->session, engine->kernel, arguments,
+	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->inputs_on, b->count * b->input_bytes, b->inputs);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,
+		                            b->outcomes);
+	if (status == BATTEN_OK)
+		status = device_buffer_read(b->turns_on, b->groups * sizeof *b->turns, b->turns);
+	return status;
+}
+
+batten_status net_block_engine_run(batch_engine *engine, const net_plan *plan, const size_t *which,
+                                   size_t count, uint64_t *lane_turns)
+{
+	block b = { .plan = plan, .count = count };
+	batten_status status = block_allocate(engine, &b);
+	if (status == BATTEN_OK) {
+		block_fill(which, &b);
+		status = block_upload(engine, &b);
+		if (status == BATTEN_OK)
+			status = block_launch(engine, &b);
+		if (status != BATTEN_OK)
+			status = batch_engine_fail(engine, status);
+	}
+	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
+		net_block_unpack(plan, which[i], (char *)b.inputs + i * b.input_bytes,
+		                 (char *)b.outcomes + i * BLOCK_OUTCOME_COUNT * b.number);
+	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)
+		*lane_turns += (uint64_t)b.turns[g] * engine->recipe.lanes;
+	block_release(engine, &b);
+	return status;
+}
