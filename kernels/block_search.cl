@@ -11,19 +11,26 @@
 #define BLOCK_ANALYTIC 0
 #endif
 #define BATTEN_DIALECT_OPENCL
+#include "shared/dialect.h"
+/* What is called from several places PoCL would call, and what it gets by address, the state of a search, then
+ * stands in memory everywhere: 3 % of a search. */
+#if defined(BATTEN_ALONE)
+#undef SHARED_FUNCTION
+#define SHARED_FUNCTION static inline __attribute__((always_inline))
+#endif
 #include "shared/block_grid.h"
 #include "shared/block_lanes.h"
-#include "shared/dialect.h"
 
 /* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line about its
  * hats, if there are any. inputs, settings, outcomes: as block_memory
  * has them. Group g works searches g * share up to count; turns[g]: how many iterations its lanes went
  * through. room: per group BLOCK_STATE_COUNT arrays, `slots` lines of probes (local size + 2; with hats
- * lines + 2) and BLOCK_HAT_NUMBERS of hats. sums: BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
-kernel void block_search(int lines, int length, int hats, int slots, int iteration_limit, int count,
-                         int share, global const scalar *stencils, global scalar *inputs,
-                         global const scalar *settings, global scalar *outcomes, global int *turns,
-                         STATE real *room, local real *sums, local real *lanes)
+ * or rounds lines + 2) and BLOCK_HAT_NUMBERS of hats. sums: BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
+kernel void block_search(int lines, int length, int hats, int rounds, int slots,
+                         int iteration_limit, int count, int share, global const scalar *stencils,
+                         global scalar *inputs, global const scalar *settings,
+                         global scalar *outcomes, global int *turns, STATE real *room,
+                         local real *sums, local real *lanes)
 {
 	const int group = (int)get_group_id(0);
 	block_state s;
@@ -31,6 +38,7 @@ kernel void block_search(int lines, int length, int hats, int slots, int iterati
 	s.length = length;
 	s.nodes = lines * length;
 	s.hats = hats;
+	s.rounds = rounds;
 	s.slots = slots;
 	s.analytic = BLOCK_ANALYTIC;
 	s.across = stencils;

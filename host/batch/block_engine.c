@@ -13,17 +13,19 @@
  * that come free take the next search, so the more of them, the less do lanes stand idle. */
 enum { BLOCK_BYTES = 8 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
 
-/* Lines of probes that are kept: all where there are hats. */
-static size_t slots_of(const search_plan *plan, size_t work_group, size_t hats)
+/* Lines of probes that are kept: all where there are hats or rounds. */
+static size_t slots_of(const search_plan *plan, size_t work_group, block_course course)
 {
-	return (hats > 0 ? block_lines_of(plan).lines : work_group) + 2;
+	const bool all = course.hats > 0 || course.rounds > 0;
+	return (all ? block_lines_of(plan).lines : work_group) + 2;
 }
 
 /* Numbers of a group's state in one lane. */
-static size_t state_numbers(const search_plan *plan, size_t work_group, size_t hats)
+static size_t state_numbers(const search_plan *plan, size_t work_group, block_course course)
 {
 	const block_lines_shape shape = block_lines_of(plan);
-	return BLOCK_STATE_NUMBERS(shape.lines, shape.length, hats, slots_of(plan, work_group, hats));
+	return BLOCK_STATE_NUMBERS(shape.lines, shape.length, course.hats,
+	                           slots_of(plan, work_group, course));
 }
 
 static size_t local_numbers(const search_plan *plan)
@@ -46,8 +48,8 @@ batten_status block_engine_open(const search_plan *plan, size_t index, const bat
 		                           .lanes = plan->options.lanes,
 		                           .work_group = plan->options.work_group };
 	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
-	const size_t numbers = state_numbers(plan, recipe.work_group, block_hat_count(plan)) +
-	                       local_numbers(plan);
+	const block_course most = { .hats = block_hat_count(plan), .rounds = 1 };
+	const size_t numbers = state_numbers(plan, recipe.work_group, most) + local_numbers(plan);
 	const bool global = numbers * recipe.lanes * batch_engine_number_size(recipe.precision) >
 	                    device->local_memory_bytes;
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
@@ -79,7 +81,7 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 typedef struct block {
 	const search_plan *plan;
 	size_t count, share, groups;
-	size_t hats;          /* of a line */
+	block_course course;
 	size_t number, nodes; /* bytes of a number; numbers of an array */
 	size_t input_bytes;
 	bool direct; /* the device works in the host's memory */
@@ -137,7 +139,7 @@ static bool is_global(const batch_engine *engine)
 
 static batten_status block_upload(batch_engine *engine, block *b)
 {
-	const size_t state = state_numbers(b->plan, engine->recipe.work_group, b->hats) *
+	const size_t state = state_numbers(b->plan, engine->recipe.work_group, b->course) *
 	                     engine->recipe.lanes * b->number * b->groups;
 	const batch_engine_upload uploads[] = {
 		{ &b->stencils_on, block_stencil_count(b->plan) * b->number, b->stencils },
@@ -162,8 +164,9 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	const size_t group = engine->recipe.work_group;
 	const int32_t numbers[] = { (int32_t)shape.lines,
 		                        (int32_t)shape.length,
-		                        (int32_t)b->hats,
-		                        (int32_t)slots_of(b->plan, group, b->hats),
+		                        (int32_t)b->course.hats,
+		                        (int32_t)b->course.rounds,
+		                        (int32_t)slots_of(b->plan, group, b->course),
 		                        (int32_t)b->plan->options.iteration_limit,
 		                        (int32_t)b->count,
 		                        (int32_t)b->share };
@@ -175,13 +178,14 @@ static batten_status block_launch(batch_engine *engine, block *b)
 		{ .size = sizeof(int32_t), .value = &numbers[4] },
 		{ .size = sizeof(int32_t), .value = &numbers[5] },
 		{ .size = sizeof(int32_t), .value = &numbers[6] },
+		{ .size = sizeof(int32_t), .value = &numbers[7] },
 		{ .buffer = b->stencils_on },
 		{ .buffer = b->inputs_on },
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcomes_on },
 		{ .buffer = b->turns_on },
 		{ .buffer = b->state_on,
-		  .size = b->state_on ? 0 : state_numbers(b->plan, group, b->hats) * lane_bytes },
+		  .size = b->state_on ? 0 : state_numbers(b->plan, group, b->course) * lane_bytes },
 		{ .size = BLOCK_SUM_COUNT * shape.lines * lane_bytes },
 		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
 	};
@@ -198,14 +202,20 @@ static batten_status block_launch(batch_engine *engine, block *b)
 	return status;
 }
 
-/* Searches that all want hats, or none of them. */
+static bool is_same(block_course a, block_course b)
+{
+	return a.hats == b.hats && a.rounds == b.rounds;
+}
+
+/* Searches of one course. */
 static batten_status run_alike(batch_engine *engine, const search_plan *plan,
                                const batten_search_problem *problems, const size_t *which,
                                size_t count, double *y_m, batten_search_result *results,
                                uint64_t *lane_turns)
 {
-	const bool wants = block_wants_hats(plan, &problems[which[0]]);
-	block b = { .plan = plan, .count = count, .hats = wants ? block_hat_count(plan) : 0 };
+	block b = { .plan = plan,
+		        .count = count,
+		        .course = block_course_of(plan, &problems[which[0]]) };
 	batten_status status = block_allocate(engine, &b);
 	if (status == BATTEN_OK) {
 		status = block_fill(problems, which, &b);
@@ -233,8 +243,8 @@ batten_status block_engine_run(batch_engine *engine, const search_plan *plan,
 {
 	batten_status status = BATTEN_OK;
 	for (size_t first = 0, last = 0; first < count && status == BATTEN_OK; first = last) {
-		const bool wants = block_wants_hats(plan, &problems[which[first]]);
-		while (last < count && block_wants_hats(plan, &problems[which[last]]) == wants)
+		const block_course course = block_course_of(plan, &problems[which[first]]);
+		while (last < count && is_same(block_course_of(plan, &problems[which[last]]), course))
 			last++;
 		status = run_alike(engine, plan, problems, which + first, last - first, y_m, results,
 		                   lane_turns);

@@ -9,9 +9,18 @@
 
 enum { MOST_SPANS = 32, LEAST_NODES = 2 };
 
-/* The least part of the closeness of an offset that the coupling of lines must be (bench/README.md,
- * what was tried). */
+/* How much of the closeness of an offset the coupling of lines must be for hats, and for rounds
+ * (bench/README.md, what was tried). */
 #define COUPLED 1.0
+#define SOMEWHAT_COUPLED 0.1
+/* From here on hats on cells longer than so many times their width need no rounds. */
+#define MUCH_COUPLED 4.0
+#define STRETCHED 2.0
+
+/* On larger tables the state of a group leaves the caches, and rounds of lines alone wait for it longer than the
+ * iterations take that they save. */
+enum { ROUNDS_NODES = 4096 };
+enum { ROUNDS = 3, ROUNDS_OF_STRETCHED_HATS = 2 };
 
 static double spacing_across(const search_plan *plan)
 {
@@ -134,8 +143,24 @@ void block_hat_values(const search_plan *plan, double *values)
 	}
 }
 
-bool block_wants_hats(const search_plan *plan, const batten_search_problem *problem)
+static size_t round_count(const search_plan *plan, double coupling, bool hats)
+{
+	const double least = fmin(plan->spacing_x, plan->spacing_z);
+	if (hats && spacing_across(plan) < STRETCHED * least)
+		return ROUNDS;
+	if (hats)
+		return coupling < MUCH_COUPLED ? ROUNDS_OF_STRETCHED_HATS : 0;
+	const bool small = plan->station_count * plan->waterline_count <= ROUNDS_NODES;
+	return small && coupling > SOMEWHAT_COUPLED ? ROUNDS : 0;
+}
+
+block_course block_course_of(const search_plan *plan, const batten_search_problem *problem)
 {
 	const double apart = spacing_across(plan) / problem->half_beam_m;
-	return problem->w1 > COUPLED * problem->w2 * (apart * apart) * (apart * apart);
+	const double held = problem->w2 * (apart * apart) * (apart * apart);
+	const double coupling = held > 0.0 ? problem->w1 / held : HUGE_VAL;
+	block_course course;
+	course.hats = coupling > COUPLED ? block_hat_count(plan) : 0;
+	course.rounds = round_count(plan, coupling, course.hats > 0);
+	return course;
 }

@@ -12,8 +12,12 @@ size_t block_hat_count(const search_plan *plan);
 /* BLOCK_HAT_SIZE numbers a node of a line. */
 void block_hat_values(const search_plan *plan, double *values);
 
-/* Whether a search converges sooner with hats by more than they cost: where the energy couples lines more
- * than closeness holds them. It depends on the problem and the grid alone. */
-bool block_wants_hats(const search_plan *plan, const batten_search_problem *problem);
+/* What a search does in an iteration: hats of a line, 0: none; rounds (shared/block_rounds.h), 0: none. Where the
+ * energy couples lines more than closeness holds them, hats and rounds; where it does less, but some, rounds.
+ * It depends on the problem and the grid alone. */
+typedef struct block_course {
+	size_t hats, rounds;
+} block_course;
+block_course block_course_of(const search_plan *plan, const batten_search_problem *problem);
 
 #endif

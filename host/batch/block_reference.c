@@ -40,10 +40,12 @@ void block_reference_run(block_reference *search, const batten_search_problem *p
 {
 	const search_plan *plan = search->plan;
 	const block_lines_shape shape = block_lines_of(plan);
+	const block_course course = block_course_of(plan, problem);
 	const reference_block_search shared = {
 		.lines = (int)shape.lines,
 		.length = (int)shape.length,
-		.hats = block_wants_hats(plan, problem) ? (int)block_hat_count(plan) : 0,
+		.hats = (int)course.hats,
+		.rounds = (int)course.rounds,
 		.iteration_limit = (int)plan->options.iteration_limit,
 		.analytic = plan->options.analytic_slopes,
 	};

@@ -6,14 +6,15 @@
 typedef struct reference_block_search {
 	int lines, length, iteration_limit;
 	int hats;     /* of a line; 0: none */
+	int rounds;   /* of an iteration; 0: one, bent by the moves remembered */
 	int analytic; /* slopes of the integrand by formula, not by probes */
 } reference_block_search;
 
-/* Lines of probes that are kept: all where there are hats. */
-#define REFERENCE_BLOCK_SLOTS(lines, hats) ((hats) > 0 ? (lines) + 2 : 3)
+/* Lines of probes that are kept: all where there are hats or rounds. */
+#define REFERENCE_BLOCK_SLOTS(lines, hats, rounds) ((hats) > 0 || (rounds) > 0 ? (lines) + 2 : 3)
 /* Numbers of scratch that a search takes. */
 #define REFERENCE_BLOCK_SCRATCH(lines, length, hats)                                               \
-	(BLOCK_STATE_NUMBERS(lines, length, hats, REFERENCE_BLOCK_SLOTS(lines, hats)) +                \
+	(BLOCK_STATE_NUMBERS(lines, length, hats, REFERENCE_BLOCK_SLOTS(lines, hats, 1)) +             \
 	 BLOCK_SUM_COUNT * (lines))
 
 /* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings

@@ -14,7 +14,7 @@ void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *s
                            scalar *input, const scalar *settings, scalar *outcome, scalar *scratch)
 {
 	const int lines = shared->lines, length = shared->length, hats = shared->hats;
-	const int slots = REFERENCE_BLOCK_SLOTS(lines, hats);
+	const int slots = REFERENCE_BLOCK_SLOTS(lines, hats, shared->rounds);
 	scalar lanes[BLOCK_OUTCOME_COUNT + 1];
 	scalar *ring = scratch + (size_t)BLOCK_STATE_COUNT * (size_t)(lines * length);
 	scalar *hat_rows = ring + (size_t)BLOCK_PROBE_COUNT * (size_t)(slots * length);
@@ -22,6 +22,7 @@ void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *s
 		                    .length = length,
 		                    .nodes = lines * length,
 		                    .slots = slots,
+		                    .rounds = shared->rounds,
 		                    .analytic = shared->analytic,
 		                    .across = stencils,
 		                    .along = stencils + lines * STENCIL_SIZE,

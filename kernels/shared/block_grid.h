@@ -1,9 +1,9 @@
 /* What the course of the block search asks of an offset grid: probes and tables of all its lines, the bottom of
- * their parabolas, its objective. */
+ * their parabolas, rounds over them, its objective. */
 #ifndef BATTEN_SHARED_BLOCK_GRID_H
 #define BATTEN_SHARED_BLOCK_GRID_H
 
-#include "block_tables.h"
+#include "block_rounds.h"
 
 /* Probes and tables of all lines, WORK_ITEMS at a time: a line is gathered when those beside it are
  * probed, and factored when BLOCK_TOGETHER of a work-item's lines are gathered, or the last one is. part:
@@ -25,6 +25,8 @@ SHARED_FUNCTION real block_explore(const block_state *s, real far, real part, in
 			if (line < 0 || line >= s->lines)
 				continue;
 			block_gather_line(s, line, turn, stay);
+			if (s->rounds > 0)
+				block_begin_rounds(s, line, stay);
 			gathered++;
 			if (gathered == BLOCK_TOGETHER || line + WORK_ITEMS >= s->lines) {
 				block_factor_lines(s, line - (gathered - 1) * WORK_ITEMS, WORK_ITEMS, gathered);
@@ -40,8 +42,12 @@ SHARED_FUNCTION real block_explore(const block_state *s, real far, real part, in
 
 SHARED_FUNCTION void block_solve(const block_state *s, int turn, const real *alpha)
 {
-	if (s->hats > 0)
-		block_choose_hats(s, turn, alpha);
+	if (s->hats > 0) {
+		ROLLED
+		for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
+			block_lessen_line(s, line, turn, alpha);
+		block_choose_hats(s, block_array(s, BLOCK_STATE_WAY));
+	}
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
 		block_solve_line(s, line, turn, alpha);

@@ -238,8 +238,8 @@ SHARED_FUNCTION void block_explore_hats(const block_state *s, block_stay stay)
 	WAIT;
 }
 
-/* Slopes along a line's hats, less the changes remembered, alpha of each. */
-SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, const real *alpha)
+/* Slopes along a line's hats. */
+SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, const STATE real *slopes)
 {
 	STATE real *whole = block_hats_whole(s).way + line * s->hats;
 	STATE real *apart = block_hats_apart(s).way + line * s->hats;
@@ -250,7 +250,7 @@ SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, 
 	for (int k = 0; k < s->length; k++) {
 		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
 		const int n = line * s->length + k;
-		const real slope = block_slope_left(s, n, turn, alpha) * block_is_free(s, n);
+		const real slope = slopes[n] * block_is_free(s, n);
 		for (int j = 0; j < BLOCK_HATS_MET; j++)
 			whole[(int)v[BLOCK_HAT_FIRST] + j] += v[BLOCK_HAT_VALUE + j] * slope;
 	}
@@ -260,13 +260,13 @@ SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, int turn, 
 }
 
 /* The way of the hats beyond that of the lines. */
-SHARED_FUNCTION void block_choose_hats(const block_state *s, int turn, const real *alpha)
+SHARED_FUNCTION void block_choose_hats(const block_state *s, const STATE real *slopes)
 {
 	const block_band whole = block_hats_whole(s);
 	const block_band apart = block_hats_apart(s);
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		block_slope_hats(s, line, turn, alpha);
+		block_slope_hats(s, line, slopes);
 	WAIT;
 	if (WORK_ITEM == 0) {
 		ROLLED

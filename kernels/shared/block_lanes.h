@@ -87,7 +87,8 @@ SHARED_FUNCTION void block_settings(const block_memory *m, const block_queue *q,
 	WAIT;
 }
 
-SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works)
+/* rounds: 1 where an iteration takes more than one, else 0. */
+SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works, real rounds)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
@@ -102,6 +103,7 @@ SHARED_FUNCTION void block_begin(block_progress *p, mask begins, mask works)
 	p->fall = CHOOSE(begins, zero, p->fall);
 	p->gained = CHOOSE(begins, zero, p->gained);
 	p->damping = CHOOSE(begins, zero, p->damping);
+	p->bold = CHOOSE(begins, rounds, p->bold);
 	p->weight = CHOOSE(begins, zero, p->weight);
 }
 
@@ -157,7 +159,8 @@ SHARED_FUNCTION int block_change_lanes(const block_state *s, const block_memory 
 		}
 	}
 	WAIT;
-	block_begin(p, m->lanes[0] > zero, m->lanes[1] > zero);
+	block_begin(p, m->lanes[0] > zero, m->lanes[1] > zero,
+	            SPREAD(BLOCK_ROUNDS(s) > 0 ? LITERAL(1.0) : LITERAL(0.0)));
 	block_settings(m, q, limits);
 	block_arrive(s, begun, p->fresh > zero, limits->fair, limits->close);
 	return any;
@@ -180,7 +183,7 @@ SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, bloc
 	q->turns = 0;
 	p.working = p.fresh = p.objective = p.start = p.step = p.calm = p.converged = zero;
 	p.iterations = p.moves = p.trials = p.fall = p.damping = p.promise = zero;
-	p.tries = p.gained = p.weight = p.stiffness = zero;
+	p.tries = p.bold = p.gained = p.weight = p.stiffness = zero;
 	p.old_1 = p.old_2 = p.older = zero;
 	for (int pair = 0; pair < BLOCK_MEMORY; pair++)
 		p.inverse[pair] = zero;

@@ -73,6 +73,14 @@ enum {
 	BLOCK_STATE_CHANGE = BLOCK_STATE_MOVE + BLOCK_MEMORY, /* of the slope, along with each */
 	BLOCK_STATE_COUNT = BLOCK_STATE_CHANGE + BLOCK_MEMORY
 };
+/* A search that takes rounds remembers no moves; in their place it has these. */
+enum {
+	BLOCK_STATE_BOTTOM = BLOCK_STATE_MOVE, /* of the round; where its step ends */
+	BLOCK_STATE_GOING,                     /* slopes as far as the rounds went */
+	BLOCK_STATE_SELF,                      /* tables before they are factored */
+	BLOCK_STATE_NEXT,
+	BLOCK_STATE_OVER
+};
 
 /* What the integrand's probes at a node tell, each times the weight of the node: slopes along the five
  * derivatives, curvatures along the second ones. */

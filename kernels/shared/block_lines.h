@@ -9,6 +9,7 @@ typedef struct block_state {
 	int lines, length, nodes;
 	int slots; /* lines that the ring of probes has room for */
 	int analytic;
+	int rounds; /* of an iteration (block_rounds.h); 0: one, bent by the moves remembered */
 	GLOBAL const scalar *across, *along; /* STENCIL_SIZE a line, a node of a line */
 	STATE real *arrays;                  /* [BLOCK_STATE_COUNT][nodes] */
 	STATE real *ring;                    /* [slots][length][BLOCK_PROBE_COUNT] */

@@ -12,6 +12,8 @@
  *                      way; its products with the changes into the first BLOCK_MEMORY sums
  *   void block_follow(const block_state *)
  *                      gives the way to what goes with others
+ *   BLOCK_ROUNDS(const block_state *), void block_go_rounds(const block_state *, real weight, real bold)
+ *                      optional: how many rounds an iteration takes, and their way (block_rounds.h)
  *   real block_trial_objective(const block_state *)
  *                      the objective at the trial */
 #ifndef BATTEN_SHARED_BLOCK_SEARCH_H
@@ -19,6 +21,16 @@
 
 #include "block_rows.h"
 #include "multilevel.h"
+
+#if !defined(BLOCK_ROUNDS)
+#define BLOCK_ROUNDS(s) 0
+SHARED_FUNCTION void block_go_rounds(const block_state *s, real weight, real bold)
+{
+	(void)s;
+	(void)weight;
+	(void)bold;
+}
+#endif
 
 /* A search has ended when the objective fell by less than this part of it BLOCK_CALM times running; or by
  * less than BLOCK_FADING of these, and so much less than the time before that falls which go on so come to
@@ -50,6 +62,7 @@ typedef struct block_progress {
 	real weight;                /* of staying, on the diagonals of the tables */
 	real damping;               /* of the tables: what their diagonals are raised by, as a part */
 	real tries;                 /* of the last iteration */
+	real bold;                  /* takes more rounds than one */
 	real promise;               /* of the whole way, by the slope, whatever the box stops of it */
 	real fall;                  /* of the objective along the last move, by its slope; 0: no move */
 	real inverse[BLOCK_MEMORY]; /* 1 / (move . change) of each pair, newest first; 0: not used */
@@ -126,10 +139,9 @@ SHARED_FUNCTION void block_way_line(const block_state *s, int line, int turn, co
 	s->sums[2 * s->lines + line] = square;
 }
 
-/* The way all lines go. Returns its longest part. */
-SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_progress *p)
+/* The way of one round, bent by the moves remembered. */
+SHARED_FUNCTION void block_bend_way(const block_state *s, int turn, block_progress *p)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	real alpha[BLOCK_MEMORY];
 	block_remember(s, p);
 	block_unroll(s, p, alpha);
@@ -143,6 +155,16 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 		block_way_line(s, line, turn, alpha);
 	WAIT;
 	block_follow(s);
+}
+
+/* The way all lines go. Returns its longest part. */
+SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_progress *p)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	if (BLOCK_ROUNDS(s) > 0)
+		block_go_rounds(s, p->weight, CHOOSE(p->damping > zero, zero, p->bold));
+	else
+		block_bend_way(s, turn, p);
 	const real longest = block_most(s, 0);
 	const real fall = block_total(s, 1);
 	const real square = block_total(s, 2);
@@ -315,10 +337,11 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	p->objective = CHOOSE(fresh, objective, p->objective);
 	const real longest = block_choose_way(s, turn, p);
 	const mask gain = block_descend(s, turn, longest, limits, p);
-	const mask bare = (p->inverse[0] == zero) & (p->inverse[1] == zero) & (p->inverse[2] == zero);
+	const mask bare = (p->inverse[0] == zero) & (p->inverse[1] == zero) & (p->inverse[2] == zero) &
+	                  (p->bold == zero);
 	const mask begun = (p->working > zero) & (p->fresh == zero);
 	const mask still = begun & (p->fall == zero);
-	/* Without a gain the memory is at fault, if there is one, then offsets that the box stopped on their
+	/* Without a gain the memory is at fault, or rounds, if there are any, then offsets that the box stopped on their
 	 * way while their neighbours went on: steps of damped tables part from them less. What the trial itself
 	 * promises says nothing then: beside offsets a rounding off their bounds it may go uphill. */
 	const mask done = (longest <= limits.last_step) | (p->damping > SPREAD(BLOCK_DAMPING_MOST)) |
@@ -329,6 +352,8 @@ SHARED_FUNCTION void block_iterate(const block_state *s, int turn, block_limits 
 	block_hold(p, longest, limits);
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		p->inverse[m] = CHOOSE(still, zero, p->inverse[m]);
+	if (BLOCK_ROUNDS(s) > 0)
+		p->bold = CHOOSE(still, zero, one);
 	p->converged = CHOOSE(over & begun, one, p->converged);
 	p->moves += CHOOSE(gain, one, zero);
 	p->iterations += p->working;

@@ -26,7 +26,7 @@ typedef struct block_factor {
 } block_factor;
 
 /* Factors row n, whose diagonal, coupling with the next row and with the one after that lie where the
- * factors go. A held row has 0 on its diagonal, couples with nothing and has no pivot. */
+ * factors go. A held row has 0 on its diagonal, couples with nothing, whatever lies there, and has no pivot. */
 SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_factor *f)
 {
 	const real zero = SPREAD(LITERAL(0.0));
@@ -45,9 +45,9 @@ SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_factor 
 	f->inverse_2 = f->inverse_1;
 	f->inverse_1 = CHOOSE(has, one / CHOOSE(has, sound, one), zero);
 	f->factor = by_1;
-	f->next = *factor_1;
+	f->next = CHOOSE(has, *factor_1, zero);
 	f->over_2 = f->over_1;
-	f->over_1 = *factor_2;
+	f->over_1 = CHOOSE(has, *factor_2, zero);
 	*inverse = f->inverse_1;
 	*factor_1 = by_1;
 	*factor_2 = by_2;
@@ -79,19 +79,20 @@ SHARED_FUNCTION void block_factor_lines(const block_state *s, int first, int apa
 	}
 }
 
-/* Completes row n: closeness and what all rows have; leaves it to be factored. */
+/* Completes row n: closeness and what all rows have; leaves it to be factored, its own diagonal where the trial
+ * will be. */
 SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, block_stay stay,
                                       block_row row, block_products *sums)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	const real two = SPREAD(LITERAL(2.0));
 	const real y = block_array(s, BLOCK_INPUT_START)[n];
 	const real close = two * block_array(s, BLOCK_INPUT_CLOSE)[n];
 	row.self += close;
 	row.slope += close * (y - block_array(s, BLOCK_INPUT_TARGET)[n]);
-	const mask is_free = block_settle_row(s, n, turn, stay, row.slope, row.self, sums);
-	block_array(s, BLOCK_STATE_FACTOR_1)[n] = CHOOSE(is_free, row.next, zero);
-	block_array(s, BLOCK_STATE_FACTOR_2)[n] = CHOOSE(is_free, row.over, zero);
+	(void)block_settle_row(s, n, turn, stay, row.slope, row.self, sums);
+	block_array(s, BLOCK_STATE_FACTOR_1)[n] = row.next;
+	block_array(s, BLOCK_STATE_FACTOR_2)[n] = row.over;
+	block_array(s, BLOCK_STATE_TRIAL)[n] = row.self;
 }
 
 /* Slopes and the table of one line, whose probes and those beside it are in the ring. */
@@ -119,34 +120,55 @@ SHARED_FUNCTION void block_gather_line(const block_state *s, int line, int turn,
 	block_products_tell(s, line, &sums);
 }
 
+/* What a walk along a line that solves its system takes from row to row: forth, from the two rows before;
+ * back, what the rows above pull this one and the one below it. */
+typedef struct block_carry {
+	real one, two;
+} block_carry;
+
+SHARED_FUNCTION real block_solve_forth(const block_state *s, int n, real slope, block_carry *c)
+{
+	const real z = (slope - block_array(s, BLOCK_STATE_FACTOR_2)[n] * c->two) -
+	               block_array(s, BLOCK_STATE_FACTOR_1)[n] * c->one;
+	c->two = c->one;
+	c->one = z;
+	return z;
+}
+
+SHARED_FUNCTION real block_solve_back(const block_state *s, int n, real z, block_carry *c)
+{
+	const real bottom = z * block_array(s, BLOCK_STATE_INVERSE)[n] - c->one;
+	c->one = block_array(s, BLOCK_STATE_FACTOR_1)[n] * bottom + c->two;
+	c->two = block_array(s, BLOCK_STATE_FACTOR_2)[n] * bottom;
+	return bottom;
+}
+
+/* The slopes of a line less the changes remembered, alpha of each, into its way. */
+SHARED_FUNCTION void block_lessen_line(const block_state *s, int line, int turn, const real *alpha)
+{
+	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	ROLLED
+	for (int n = line * s->length; n < (line + 1) * s->length; n++)
+		way[n] = block_slope_left(s, n, turn, alpha);
+}
+
 /* The bottom of the line's parabola with the slope less the changes remembered, alpha of each, and what
  * the hats have beyond it. Products with the changes go into the sums. */
 SHARED_FUNCTION void block_solve_line(const block_state *s, int line, int turn, const real *alpha)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const int first = line * s->length;
-	const STATE real *inverse = block_array(s, BLOCK_STATE_INVERSE);
-	const STATE real *factor_1 = block_array(s, BLOCK_STATE_FACTOR_1);
-	const STATE real *factor_2 = block_array(s, BLOCK_STATE_FACTOR_2);
 	STATE real *way = block_array(s, BLOCK_STATE_WAY);
-	real one_before = zero, two_before = zero;
+	block_carry forth = { zero, zero }, back = { zero, zero };
 	ROLLED
-	for (int n = first; n < first + s->length; n++) {
-		real z = block_slope_left(s, n, turn, alpha);
-		z = (z - factor_2[n] * two_before) - factor_1[n] * one_before;
-		two_before = one_before;
-		one_before = z;
-		way[n] = z;
-	}
+	for (int n = first; n < first + s->length; n++)
+		way[n] = block_solve_forth(s, n, block_slope_left(s, n, turn, alpha), &forth);
 	real dot[BLOCK_MEMORY];
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		dot[m] = zero;
-	real pull_1 = zero, pull_2 = zero; /* of the rows above on this one and on the one below it */
 	ROLLED
 	for (int n = first + s->length - 1; n >= first; n--) {
-		const real bottom = way[n] * inverse[n] - pull_1;
-		pull_1 = factor_1[n] * bottom + pull_2;
-		pull_2 = factor_2[n] * bottom;
+		const real bottom = block_solve_back(s, n, way[n], &back);
 		const real whole = s->hats == 0 ? bottom : bottom + block_hats_beyond(s, line, n - first);
 		way[n] = whole;
 		for (int m = 0; m < BLOCK_MEMORY; m++)

@@ -1,5 +1,6 @@
-/* Two small block searches, of lines alone and of lines coupled by hats, by three work-items under
- * Oclgrind, which watches every access: no race, no access out of bounds, no barrier that some pass by.
+/* Small block searches, of lines alone and of lines coupled by hats, each with rounds and without, by three
+ * work-items under Oclgrind, which watches every access: no race, no access out of bounds, no barrier that some
+ * pass by.
  * What it finds it writes to a log; the program knows nothing of it, so the log has to be empty. */
 #include "batten.h"
 
@@ -12,29 +13,30 @@
 
 #include <cmocka.h>
 
-enum { STATIONS = 6, WATERLINES = 5, NODES = STATIONS * WATERLINES };
+enum { STATIONS = 6, WATERLINES = 5, NODES = STATIONS * WATERLINES, COUNT = 4 };
 
 static void test_small_searches(void **state)
 {
 	(void)state;
 	const double x[STATIONS] = { 0.0, 1.0, 2.0, 3.0, 4.0, 5.0 };
 	const double z[WATERLINES] = { 0.0, 0.5, 1.0, 1.5, 2.0 };
-	double y[NODES], lower[NODES], upper[NODES], ends[2 * NODES];
+	static const double weights[] = { 1e-4, 0.5, 5.0, 1e3 };
+	double y[NODES], lower[NODES], upper[NODES], ends[COUNT * NODES];
 	for (int n = 0; n < NODES; n++) {
 		const int k = n / STATIONS;
 		y[n] = 0.5 + 0.02 * (double)(n * 7 % 5) + 0.05 * (double)k;
 		lower[n] = y[n] - 0.04 * (double)(n % 4);
 		upper[n] = y[n] + 0.04;
 	}
-	batten_search_problem problems[2] = { { .start_m = y,
-		                                    .target_m = y,
-		                                    .lower_m = lower,
-		                                    .upper_m = upper,
-		                                    .w1 = 1.0,
-		                                    .w2 = 1e-4,
-		                                    .half_beam_m = 1.0 } };
-	problems[1] = problems[0];
-	problems[1].w2 = 1e3;
+	batten_search_problem problems[COUNT];
+	for (int p = 0; p < COUNT; p++)
+		problems[p] = (batten_search_problem){ .start_m = y,
+			                                   .target_m = y,
+			                                   .lower_m = lower,
+			                                   .upper_m = upper,
+			                                   .w1 = 1.0,
+			                                   .w2 = weights[p],
+			                                   .half_beam_m = 1.0 };
 	const batten_grid grid = { STATIONS, WATERLINES, x, z };
 	batten_search_options options;
 	batten_search_options_default(&options);
@@ -45,10 +47,10 @@ static void test_small_searches(void **state)
 	options.iteration_limit = 3;
 	batten_context *context = NULL;
 	assert_int_equal(batten_context_create(NULL, &context), BATTEN_OK);
-	batten_search_result results[2];
+	batten_search_result results[COUNT];
 	batten_run run;
-	const batten_status status = batten_search_batch(context, &grid, 2, problems, &options, ends,
-	                                                 results, &run);
+	const batten_status status = batten_search_batch(context, &grid, COUNT, problems, &options,
+	                                                 ends, results, &run);
 	if (status != BATTEN_OK && status != BATTEN_INCOMPLETE)
 		fail_msg("%s", batten_context_error(context));
 	assert_non_null(strstr(run.device, "Oclgrind"));

@@ -35,14 +35,15 @@ static void check_problems(const search_case *c, const batten_search_problem *pr
 	free(y);
 }
 
-/* Cells as good as square, lengths in half-beams: hats couple the lines of the first weights. */
-static void check_square_cells(search_case c, batten_search_options options)
+/* Cells of other sides, lengths in half-beams: hats couple the lines of the first weights, and lines that are
+ * coupled less take rounds, as do hats where cells are nearly square or weights between. */
+static void check_cells(search_case c, double apart, batten_search_options options)
 {
 	double x[64], z[64];
 	batten_search_problem problems[EQUAL_COUNT];
 	assert_true(c.grid.station_count <= 64 && c.grid.waterline_count <= 64);
 	for (size_t i = 0; i < 64; i++) {
-		x[i] = 0.12 * c.half_beam_m * (double)i;
+		x[i] = apart * c.half_beam_m * (double)i;
 		z[i] = (0.09 * (double)i + 0.001 * (double)(i * i)) * c.half_beam_m;
 	}
 	c.grid.x_m = x;
@@ -57,7 +58,8 @@ static void check_shape(const search_case *c, batten_search_options options)
 	batten_search_problem problems[EQUAL_COUNT];
 	search_equal_problems(c, problems);
 	check_problems(c, problems, options);
-	check_square_cells(*c, options);
+	check_cells(*c, 0.12, options);
+	check_cells(*c, 0.36, options);
 }
 
 static void test_shapes_equal_the_c_path(void **state)
