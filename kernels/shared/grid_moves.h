@@ -322,11 +322,16 @@ SHARED_FUNCTION void thin_end(const search_state *s, const search_move *move, co
 typedef struct single_offset {
 	int node;
 	single_stencil x, z;
-	node_slopes at[9]; /* of the 3 x 3 nodes, waterline by waterline, before the move */
 	node_tangent corner[4];
-	real bend[9];
 	real y, lower, upper, target, close;
 } single_offset;
+
+/* One of its 3 x 3 nodes. Their derivatives and weights are read where they lie, by every probe: 54 numbers are
+ * more than there are registers, and to keep them aside is to store them first. */
+SHARED_FUNCTION int single_node(const search_state *s, const single_offset *o, int row, int column)
+{
+	return o->node + (row - 1) * s->stride + column - 1;
+}
 
 SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterline,
                                   single_offset *o)
@@ -340,22 +345,17 @@ SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterl
 	o->target = s->target[o->node];
 	o->close = s->close[o->node];
 	UNROLLED
-	for (int n = 0; n < 9; n++) {
-		const int node = o->node + (n / 3 - 1) * s->stride + n % 3 - 1;
-		o->at[n] = s->slopes[node];
-		o->bend[n] = s->bend[node];
-	}
-	UNROLLED
 	for (int c = 0; c < 4; c++) {
-		const node_slopes d = o->at[c / 2 * 6 + c % 2 * 2];
-		o->corner[c] = tangent_of(GRID_FAIRNESS, d.y_x, d.y_z);
+		const STATE node_slopes *d = s->slopes + single_node(s, o, c / 2 * 2, c % 2 * 2);
+		o->corner[c] = tangent_of(GRID_FAIRNESS, d->y_x, d->y_z);
 	}
 }
 
 /* The derivatives of one of the nodes after a move. */
-SHARED_FUNCTION node_slopes single_slopes(const single_offset *o, int row, int column, real moved)
+SHARED_FUNCTION node_slopes single_slopes(const search_state *s, const single_offset *o, int row,
+                                          int column, real moved)
 {
-	node_slopes d = o->at[3 * row + column];
+	node_slopes d = s->slopes[single_node(s, o, row, column)];
 	d.y_xz = PRODUCT_AND(SPREAD(o->x.first[column] * o->z.first[row]), moved, d.y_xz);
 	if (row == 1) {
 		d.y_x = PRODUCT_AND(SPREAD(o->x.first[column]), moved, d.y_x);
@@ -372,18 +372,19 @@ SHARED_FUNCTION node_slopes single_slopes(const single_offset *o, int row, int c
 SHARED_FUNCTION real single_corner(const search_state *s, const single_offset *o, int row,
                                    int column, real moved)
 {
-	const node_slopes d = single_slopes(o, row, column, moved);
+	const node_slopes d = single_slopes(s, o, row, column, moved);
 	const real fairness = fairness_of(GRID_FAIRNESS, s->weights, o->corner[row + column / 2],
 	                                  d.y_xx, d.y_xz, d.y_zz);
-	return node_energy(o->bend[3 * row + column], fairness);
+	return node_energy(s->bend[single_node(s, o, row, column)], fairness);
 }
 
 /* That of the other nodes. */
 SHARED_FUNCTION real single_beside(const search_state *s, const single_offset *o, int row,
                                    int column, real moved)
 {
-	const node_slopes d = single_slopes(o, row, column, moved);
-	return node_energy(o->bend[3 * row + column], node_fairness(GRID_FAIRNESS, s->weights, d));
+	const node_slopes d = single_slopes(s, o, row, column, moved);
+	return node_energy(s->bend[single_node(s, o, row, column)],
+	                   node_fairness(GRID_FAIRNESS, s->weights, d));
 }
 
 /* The objective over the nodes whose terms the offset can change, after a step. */
@@ -412,8 +413,7 @@ SHARED_FUNCTION void single_end(const search_state *s, const single_offset *o, r
 	s->y[o->node] = y;
 	UNROLLED
 	for (int n = 0; n < 9; n++)
-		s->slopes[o->node + (n / 3 - 1) * s->stride + n % 3 - 1] = single_slopes(o, n / 3, n % 3,
-		                                                                         moved);
+		s->slopes[single_node(s, o, n / 3, n % 3)] = single_slopes(s, o, n / 3, n % 3, moved);
 }
 
 #endif
