@@ -8,7 +8,7 @@
 
 /* Searches a lane of a launch and groups a compute unit: lanes that come free take the next search, so the more of
  * them, the less do lanes stand idle. A CPU has one group a unit, whose state fills its caches. */
-enum { SEARCHES_A_LANE = 8, GROUPS_A_GPU_UNIT = 8 };
+enum { SEARCHES_A_LANE = 32, GROUPS_A_GPU_UNIT = 8 };
 
 static batten_status run_selftest(batch_engine *engine, const void *plan)
 {

@@ -23,7 +23,8 @@ typedef struct net_item {
 	const double *target_y_m, *lower_y_m, *upper_y_m;
 	double w1, w2, half_beam_m;
 	const char *fault; /* why it cannot be searched, or NULL */
-	/* How much wider poles lie along u than along v: log2, rounded, within NET_STRETCH_MOST. */
+	/* How much wider poles lie along u than along v: log2, rounded, within NET_STRETCH_MOST; 0 where nothing
+	 * asks for it. */
 	int stretch;
 } net_item;
 

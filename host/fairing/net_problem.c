@@ -158,7 +158,8 @@ static void take_items(net_plan *plan, const batten_net_problem *problems, doubl
 			                         .w2 = problems[p].w2,
 			                         .half_beam_m = problems[p].half_beam_m,
 			                         .fault = fault_of(plan, &problems[p]),
-			                         .stretch = stretch_of(problems[p].start, room) };
+			                         .stretch = plan->block ? 0
+			                                                : stretch_of(problems[p].start, room) };
 	}
 }
 
@@ -183,7 +184,7 @@ static batten_status choose_algorithm(net_plan *plan)
 		return batten_fail(plan->context, BATTEN_USAGE,
 		                   "search algorithm %s: auto, block or multilevel is expected for a net",
 		                   batten_search_algorithm_text(asked));
-	if (asked == BATTEN_ALGORITHM_MULTILEVEL || plan->count == 0)
+	if (asked == BATTEN_ALGORITHM_MULTILEVEL)
 		return BATTEN_OK;
 	const batten_status status = net_block_knows(plan, &plan->block);
 	if (status == BATTEN_OK && asked == BATTEN_ALGORITHM_BLOCK && !plan->block)
@@ -209,6 +210,8 @@ static batten_status take_batch(net_problems *p, const batten_net_problem *probl
 		return status;
 	plan->leader = p->leader;
 	status = make_tables(plan, &topology, chosen->gauss_points);
+	if (status == BATTEN_OK)
+		status = choose_algorithm(plan);
 	if (status != BATTEN_OK)
 		return status;
 	p->targets = batten_allocate(plan->context, plan->count, poles * sizeof *p->targets);
@@ -239,8 +242,6 @@ batten_status net_problems_open(batten_context *context, size_t count,
 	out->plan.fairness = (int)chosen.fairness;
 	if (status == BATTEN_OK && count > 0)
 		status = take_batch(out, problems, &chosen);
-	if (status == BATTEN_OK)
-		status = choose_algorithm(&out->plan);
 	return status;
 }
 

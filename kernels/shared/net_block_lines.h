@@ -77,6 +77,7 @@ SHARED_FUNCTION void net_collapse_line(const block_state *s, const STATE real *y
 	ROLLED
 	for (int i = 0; i < s->lines; i++) {
 		real value = zero, once = zero, twice = zero;
+		UNROLLED
 		for (int k = 0; k < NET_ORDER_V; k++) {
 			const real pole = poles[i * s->length + k];
 			value = FUSED(SPREAD(table[k]), pole, value);
@@ -96,6 +97,7 @@ SHARED_FUNCTION net_way net_way_at(const block_state *s, const STATE real *colum
 	GLOBAL const scalar *table = s->table_u + sample * NET_TABLE_SIZE(NET_ORDER_U);
 	const STATE real *column = columns + 3 * s->first_u[sample];
 	net_way way = { zero, zero, zero, zero, zero, zero };
+	UNROLLED
 	for (int i = 0; i < NET_ORDER_U; i++) {
 		const real t0 = SPREAD(table[i]);
 		const real t1 = SPREAD(table[NET_ORDER_U + i]);

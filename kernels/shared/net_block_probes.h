@@ -220,6 +220,7 @@ SHARED_FUNCTION void net_probe_far(const net_forms *s, real fourth, real weight,
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real n_y = weight * s->metric.n_y;
+	UNROLLED
 	for (int n = 0; n < 3; n++)
 		net_put_bends(s, to, 2 + n,
 		              net_bends_of(fourth, s->root, s->by_square, s->metric.uu, s->by_uu,
@@ -239,6 +240,7 @@ SHARED_FUNCTION void net_probe(const STATE real *sample, const net_forms *s, rea
 	net_probe_near(sample, s, fourth, weight * part, to);
 	net_probe_far(s, fourth, weight, to);
 	const real last = weight * (s->bends ? here.last : half_of * (here.first + here.last));
+	UNROLLED
 	for (int n = 0; n < 5; n++) {
 		real slope = last * to[NET_BLOCK_LAST + n];
 		if (s->bends && n < 4)

@@ -16,6 +16,7 @@ SHARED_FUNCTION void net_change_columns(const block_state *s, const net_line *at
 	const STATE real *last = probed + NET_BLOCK_LAST;
 	const STATE real *middle = probed + NET_BLOCK_MIDDLE;
 	const STATE real *first = probed + NET_BLOCK_FIRST;
+	UNROLLED
 	for (int a = 0; a < NET_ORDER_U; a++) {
 		const real t0 = SPREAD(table[a]);
 		const real t1 = SPREAD(table[NET_ORDER_U + a]);
@@ -39,17 +40,20 @@ SHARED_FUNCTION void net_add_pair(const block_state *s, const STATE real *a, con
                                   real close, real sums[9])
 {
 	(void)s;
-	for (int x = 0; x < 3; x++)
-		for (int y = 0; y < 3; y++)
-			sums[3 * x + y] = FUSED(a[NET_BLOCK_COLUMN_LAST + x], b[NET_BLOCK_COLUMN_LAST + y],
-			                        sums[3 * x + y]);
-	for (int x = 0; x < 2 && NET_BLOCK_BENDS; x++)
+	UNROLLED
+	for (int n = 0; n < 9; n++)
+		sums[n] = FUSED(a[NET_BLOCK_COLUMN_LAST + n / 3], b[NET_BLOCK_COLUMN_LAST + n % 3],
+		                sums[n]);
+	UNROLLED
+	for (int x = 0; x < (NET_BLOCK_BENDS ? 2 : 0); x++) {
+		UNROLLED
 		for (int y = 0; y < 2; y++) {
 			const real sum = FUSED(a[NET_BLOCK_COLUMN_MIDDLE + x], b[NET_BLOCK_COLUMN_MIDDLE + y],
 			                       sums[3 * x + y]);
 			sums[3 * x + y] = FUSED(a[NET_BLOCK_COLUMN_FIRST + x], b[NET_BLOCK_COLUMN_FIRST + y],
 			                        sum);
 		}
+	}
 	sums[0] = FUSED(a[NET_BLOCK_COLUMN_CLOSE], close, sums[0]);
 }
 
@@ -68,13 +72,16 @@ SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int
 		for (int b = a; b < NET_ORDER_U; b++) {
 			STATE real *pair = pairs + (a * NET_ORDER_U + (b - a)) * 9;
 			real sums[9];
+			UNROLLED
 			for (int n = 0; n < 9; n++)
 				sums[n] = pair[n];
+			UNROLLED
 			for (int j = 0; j < NET_POINTS_U; j++) {
 				const STATE real *span = at->span + j * size;
 				net_add_pair(s, span + a * NET_BLOCK_COLUMN_SIZE, span + b * NET_BLOCK_COLUMN_SIZE,
 				             SPREAD(table[j * NET_TABLE_SIZE(NET_ORDER_U) + b]), sums);
 			}
+			UNROLLED
 			for (int n = 0; n < 9; n++)
 				pair[n] = sums[n];
 		}
@@ -90,6 +97,7 @@ SHARED_FUNCTION void net_add_slopes(const block_state *s, const net_line *at, in
 		GLOBAL const scalar *table = s->table_u + j * NET_TABLE_SIZE(NET_ORDER_U);
 		const STATE real *probed = at->probes + j * NET_BLOCK_PROBED;
 		const STATE real *along = probed + NET_BLOCK_SLOPE;
+		UNROLLED
 		for (int a = 0; a < NET_ORDER_U; a++) {
 			const real t0 = SPREAD(table[a]);
 			const real t1 = SPREAD(table[NET_ORDER_U + a]);
@@ -127,12 +135,14 @@ SHARED_FUNCTION void net_add_poles(const block_state *s, int line, int i, int d)
 	const int first = s->first_v[line];
 	STATE real *rows = s->rows + (i * s->length + first) * s->band + d * s->length;
 	real sums[NET_ORDER_MOST * NET_ORDER_MOST];
+	UNROLLED
 	for (int n = 0; n < NET_ORDER_V * NET_ORDER_V; n++)
 		sums[n] = zero;
 	ROLLED
 	for (int j = line; j < line + NET_POINTS_V; j++) {
 		const STATE real *pair = net_line_of(s, j % s->slots).pairs + (i * NET_ORDER_U + d) * 9;
 		GLOBAL const scalar *t = s->table_v + j * NET_TABLE_SIZE(NET_ORDER_V);
+		UNROLLED
 		for (int m = 0; m < NET_ORDER_V; m++) {
 			const real t0 = SPREAD(t[m]);
 			const real t1 = SPREAD(t[NET_ORDER_V + m]);
@@ -140,6 +150,7 @@ SHARED_FUNCTION void net_add_poles(const block_state *s, int line, int i, int d)
 			const real none = FUSED(pair[2], t2, FUSED(pair[1], t1, pair[0] * t0));
 			const real once = FUSED(pair[5], t2, FUSED(pair[4], t1, pair[3] * t0));
 			const real twice = FUSED(pair[8], t2, FUSED(pair[7], t1, pair[6] * t0));
+			UNROLLED
 			for (int k = 0; k < NET_ORDER_V; k++) {
 				const int n = m * NET_ORDER_V + k;
 				sums[n] = FUSED(SPREAD(t[k]), none, sums[n]);
@@ -148,10 +159,13 @@ SHARED_FUNCTION void net_add_poles(const block_state *s, int line, int i, int d)
 			}
 		}
 	}
-	for (int m = 0; m < NET_ORDER_V; m++)
-		for (int k = 0; k < NET_ORDER_V; k++)
-			if (d > 0 || k <= m)
-				rows[k * (s->band - 1) + m] += sums[m * NET_ORDER_V + k];
+	UNROLLED
+	for (int n = 0; n < NET_ORDER_V * NET_ORDER_V; n++) {
+		const int m = n / NET_ORDER_V;
+		const int k = n % NET_ORDER_V;
+		if (d > 0 || k <= m)
+			rows[k * (s->band - 1) + m] += sums[n];
+	}
 }
 
 /* Adds the slopes of column i at the lines of a span to those along the poles. */
@@ -162,10 +176,26 @@ SHARED_FUNCTION void net_add_pole_slopes(const block_state *s, int line, int i)
 	for (int j = line; j < line + NET_POINTS_V; j++) {
 		const STATE real *slope = net_line_of(s, j % s->slots).slopes + 3 * i;
 		GLOBAL const scalar *t = s->table_v + j * NET_TABLE_SIZE(NET_ORDER_V);
+		UNROLLED
 		for (int k = 0; k < NET_ORDER_V; k++)
 			poles[k] = FUSED(SPREAD(t[k]), slope[0],
 			                 FUSED(SPREAD(t[NET_ORDER_V + k]), slope[1],
 			                       FUSED(SPREAD(t[2 * NET_ORDER_V + k]), slope[2], poles[k])));
+	}
+}
+
+/* Adds a pair of columns, if it is one, at lines first to end of samples; with a column and itself its slopes. Looks
+ * here whether there is work for it: PoCL loses the work of a loop that some work-items do not enter. */
+SHARED_FUNCTION void net_add_column_pair(const block_state *s, int first, int end, int pair)
+{
+	const int i = pair / NET_ORDER_U;
+	const int d = pair % NET_ORDER_U;
+	ROLLED
+	for (int line = first; line < end; line += NET_POINTS_V) {
+		if (d == 0 && i < s->lines)
+			net_add_pole_slopes(s, line, i);
+		if (i + d < s->lines)
+			net_add_poles(s, line, i, d);
 	}
 }
 
@@ -244,15 +274,8 @@ SHARED_FUNCTION void net_gather(const block_state *s, real part)
 			s->terms[line] = net_work_line(s, line, part);
 		WAIT;
 		ROLLED
-		for (int i = WORK_ITEM; i < s->lines; i += WORK_ITEMS) {
-			ROLLED
-			for (int line = first; line < end; line += NET_POINTS_V) {
-				net_add_pole_slopes(s, line, i);
-				ROLLED
-				for (int d = 0; d < NET_ORDER_U && i + d < s->lines; d++)
-					net_add_poles(s, line, i, d);
-			}
-		}
+		for (int n = 0; n < s->lines * NET_ORDER_U; n += WORK_ITEMS)
+			net_add_column_pair(s, first, end, n + WORK_ITEM);
 		WAIT;
 	}
 }
