@@ -156,12 +156,47 @@ static void test_gauss(void **state)
 	check_ratios("wigley", net_case_wigley(10.0), limit);
 }
 
+/* The block search over seeds, noises and boxes, by its certificate. */
+static void test_noises(void **state)
+{
+	(void)state;
+	static const double noises[] = { 0.005, 0.02 };
+	static const double parts[] = { 10.0, 0.02 };
+	double worst = 0.0;
+	unsigned longest = 0;
+	for (uint32_t n = 0; n < 8 * 2 * 2; n++) {
+		net_case c = net_case_noisy(1000u + n / 4, noises[n % 2], parts[n / 2 % 2]);
+		double *y = calloc(c.poles, sizeof *y);
+		assert_non_null(y);
+		for (int run = 0; run < 6; run++) {
+			const gap_limit limit = { (oracle_fairness)(run % 2), 60, 0.0, BATTEN_F64, false,
+				                      BATTEN_ALGORITHM_BLOCK };
+			const batten_net_problem problem = net_case_problem(&c, 1.0, ratios[run / 2]);
+			batten_net_options options;
+			batten_certificate end;
+			const unsigned iterations = search(&c, &limit, ratios[run / 2], y);
+			batten_net_options_default(&options);
+			options.fairness = (batten_fairness)(run % 2);
+			assert_int_equal(batten_net_certify_batch(c.context, 1, &problem, &options, y, &end),
+			                 BATTEN_OK);
+			assert_true(end.gap_estimate < 1e-8);
+			assert_true(iterations < limit.iterations);
+			worst = fmax(worst, end.gap_estimate);
+			longest = iterations > longest ? iterations : longest;
+		}
+		free(y);
+		net_case_close(&c);
+	}
+	print_message("block over noises: gap %.2e, %u iterations at most\n", worst, longest);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_wigley), cmocka_unit_test(test_npl_with_limit),
 		cmocka_unit_test(test_npl),    cmocka_unit_test(test_f32),
 		cmocka_unit_test(test_mean),   cmocka_unit_test(test_gauss),
+		cmocka_unit_test(test_noises),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static void take_surface(net_case *c, double part)
 }
 
 /* Each pole on the hull over the mean of its knots: near enough to the hull, and exactly known. */
-static void make_wigley(double *poles)
+static void make_wigley(uint32_t state, double noise_m, double *poles)
 {
-	uint32_t state = 777u;
 	for (size_t k = 0; k < ROWS; k++)
 		for (size_t i = 0; i < COLUMNS; i++) {
 			double mean[2] = { 0.0, 0.0 };
@@ -50,7 +49,7 @@ static void make_wigley(double *poles)
 			double *pole = poles + 3 * (k * COLUMNS + i);
 			state = state * 1664525u + 1013904223u;
 			if (y > 1e-9)
-				y = fmax(0.0, y + 0.01 * ((double)(state >> 8) / (double)(1u << 23) - 1.0));
+				y = fmax(0.0, y + noise_m * ((double)(state >> 8) / (double)(1u << 23) - 1.0));
 			else
 				y = 0.0;
 			pole[0] = 16.0 * mean[0];
@@ -61,9 +60,14 @@ static void make_wigley(double *poles)
 
 net_case net_case_wigley(double part)
 {
+	return net_case_noisy(777u, 0.01, part);
+}
+
+net_case net_case_noisy(uint32_t seed, double noise_m, double part)
+{
 	net_case c = { .half_beam_m = 0.8 };
 	double poles[3 * COLUMNS * ROWS];
-	make_wigley(poles);
+	make_wigley(seed, noise_m, poles);
 	const batten_surface_net net = {
 		.order_u = ORDER, .order_v = ORDER, .count_u = COLUMNS, .count_v = ROWS, .poles_m = poles
 	};

@@ -6,6 +6,8 @@
 
 #include "oracle/oracle_net.h"
 
+#include <stdint.h>
+
 typedef struct net_case {
 	batten_context *context;
 	batten_surface *surface;
@@ -20,6 +22,8 @@ typedef struct net_case {
  * 0.01 m; or a net of 13 x 13 poles fitted to npl_parent. Poles in the centreplane are fixed, the
  * others may move by `part` half-beams. Fails the test when anything goes wrong. */
 net_case net_case_wigley(double part);
+net_case net_case_noisy(uint32_t seed, double noise_m,
+                        double part); /* the same, off by other numbers */
 net_case net_case_npl(double part);
 void net_case_close(net_case *c);
 

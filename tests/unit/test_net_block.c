@@ -1,8 +1,10 @@
 /* The block search over nets: ends at the minima that the multilevel search ends at, with bounds that hold poles and
  * without, poles that go with others, both fairnesses it knows; how searches end; on OpenCL, in lanes and in
- * work-groups, the bits of the C path. */
+ * work-groups, the bits of the C path, and whatever call fails. */
 #include "support/kernel_compile.h"
 #include "support/net_case.h"
+
+#include "device/device.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -248,12 +250,58 @@ static void test_device(void **state)
 	net_case_close(&c);
 }
 
+/* Whichever call of OpenCL fails, the searches are all done, with a warning where the device was given up; asked
+ * for by its number, it fails with a name. */
+static void test_failing_calls(void **state)
+{
+	(void)state;
+	net_case c = net_case_wigley(0.05);
+	batten_net_options options = options_of(BATTEN_ALGORITHM_BLOCK, BATTEN_FAIRNESS_BENDING);
+	batten_net_problem problems[COUNT];
+	batten_search_result results[COUNT];
+	batten_run told;
+	double *y = room_for(&c, 2 * COUNT);
+	double *known_y = y + COUNT * c.poles;
+	for (int p = 0; p < COUNT; p++)
+		problems[p] = net_case_problem(&c, 1.0, pow(10.0, 1.0 + 0.5 * p));
+	assert_int_equal(
+		batten_net_search_batch(c.context, COUNT, problems, &options, known_y, results, NULL),
+		BATTEN_OK);
+	options.search.device = 0;
+	assert_int_equal(
+		batten_net_search_batch(c.context, COUNT, problems, &options, y, results, &told),
+		BATTEN_OK);
+	options.search.device = BATTEN_DEVICE_AUTO;
+	int warned = 0;
+	for (unsigned long k = 1; k <= 40; k++) {
+		memset(y, 0, COUNT * c.poles * sizeof *y);
+		(void)device_fail_call(k);
+		const batten_status status = batten_net_search_batch(c.context, COUNT, problems, &options,
+		                                                     y, results, &told);
+		(void)device_fail_call(0);
+		assert_int_equal(status, BATTEN_OK);
+		assert_memory_equal(y, known_y, COUNT * c.poles * sizeof *y);
+		warned += told.warning[0] != '\0';
+	}
+	assert_true(warned >= 20);
+	options.search.device = 0;
+	(void)device_fail_call(1);
+	assert_int_equal(
+		batten_net_search_batch(c.context, COUNT, problems, &options, y, results, &told),
+		BATTEN_DEVICE);
+	(void)device_fail_call(0);
+	assert_true(batten_context_error(c.context)[0] != '\0');
+	free(y);
+	net_case_close(&c);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_ends),   cmocka_unit_test(test_leaders),
-		cmocka_unit_test(test_turned), cmocka_unit_test(test_how_it_ends),
-		cmocka_unit_test(test_device),
+		cmocka_unit_test(test_ends),          cmocka_unit_test(test_leaders),
+		cmocka_unit_test(test_turned),        cmocka_unit_test(test_how_it_ends),
+		cmocka_unit_test(test_device),        cmocka_unit_test(test_failing_calls),
+		cmocka_unit_test(test_failing_calls),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

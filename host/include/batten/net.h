@@ -30,7 +30,7 @@ typedef struct batten_net_problem {
 typedef struct batten_net_options {
 	size_t struct_size;
 	/* first_step 0.01, else as its own default; AUTO takes BLOCK for bending and mean, else, and where the net's
-	 * table is too large (about 5000 poles in a square), MULTILEVEL */
+	 * table is too large (about 4000 poles in a square), MULTILEVEL */
 	batten_search_options search;
 	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING */
 	unsigned gauss_points;    /* a knot span and direction, 1..16; 0 takes the order */
