@@ -173,6 +173,35 @@ static void test_topology(void **state)
 	close_refusal(&r);
 }
 
+/* A table that would be too large is not begun. */
+static void test_large_net(void **state)
+{
+	(void)state;
+	enum { SIDE = 70 };
+	refusal r = open_refusal();
+	double *poles = calloc((size_t)SIDE * SIDE, 3 * sizeof *poles);
+	double *bounds = calloc((size_t)SIDE * SIDE, sizeof *bounds);
+	batten_surface *large = NULL;
+	assert_true(poles && bounds);
+	for (int n = 0; n < SIDE * SIDE; n++) {
+		poles[3 * n] = n % SIDE;
+		poles[3 * n + 1] = bounds[n] = 1.0;
+		poles[3 * n + 2] = n / SIDE;
+	}
+	const batten_surface_net net = {
+		.order_u = 4, .order_v = 4, .count_u = SIDE, .count_v = SIDE, .poles_m = poles
+	};
+	assert_int_equal(batten_surface_create(r.c.context, &net, &large), BATTEN_OK);
+	r.problem.start = large;
+	r.problem.lower_y_m = r.problem.upper_y_m = bounds;
+	r.options.search.algorithm = BATTEN_ALGORITHM_BLOCK;
+	expect_usage(&r, 1, &r.problem, "on 70 x 70 poles");
+	batten_surface_destroy(large);
+	free(poles);
+	free(bounds);
+	close_refusal(&r);
+}
+
 /* A search that ends at its limit is a success here. */
 static batten_status search_once(batten_context *context, void *user)
 {
@@ -204,7 +233,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_refused_problems), cmocka_unit_test(test_options),
 		cmocka_unit_test(test_leaders),          cmocka_unit_test(test_topology),
-		cmocka_unit_test(test_memory),
+		cmocka_unit_test(test_large_net),        cmocka_unit_test(test_memory),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
