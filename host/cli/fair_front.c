@@ -188,8 +188,12 @@ batten_status fair_front(fair_job *job, const char *folder)
 		(void)fprintf(stderr, "batten fair: %s\n", batten_status_text(BATTEN_MEMORY));
 		return BATTEN_MEMORY;
 	}
+	batten_run run;
+	memset(&run, 0, sizeof run);
 	const batten_status swept = batten_hull_front(job->context, job->hull, &job->options, low, high,
-	                                              count, points);
+	                                              count, points, &run);
+	if (run.warning[0])
+		fair_warn(job, "%s", run.warning);
 	if (swept == BATTEN_OK || swept == BATTEN_INCOMPLETE)
 		status = put_out(job, count, points, folder);
 	else

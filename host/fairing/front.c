@@ -95,7 +95,8 @@ static batten_status sweep(front *f)
 
 batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
                                 const batten_fair_options *options, double ratio_low,
-                                double ratio_high, size_t count, batten_front_point *points)
+                                double ratio_high, size_t count, batten_front_point *points,
+                                batten_run *run)
 {
 	batten_fair_options chosen;
 	batten_fair_options_default(&chosen);
@@ -116,6 +117,8 @@ batten_status batten_hull_front(batten_context *context, const batten_hull *hull
 	status = fairing_prepare(fairing, hull, &chosen);
 	if (status == BATTEN_OK)
 		status = sweep(&f);
+	if (run)
+		*run = fairing->run;
 	batten_fairing_destroy(fairing);
 	return status;
 }

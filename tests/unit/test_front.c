@@ -44,8 +44,11 @@ static void test_front(void **state)
 {
 	fixture *f = *state;
 	batten_front_point points[COUNT];
-	assert_int_equal(batten_hull_front(f->context, f->hull, &f->options, 10.0, 1e7, COUNT, points),
-	                 BATTEN_OK);
+	batten_run run;
+	assert_int_equal(
+		batten_hull_front(f->context, f->hull, &f->options, 10.0, 1e7, COUNT, points, &run),
+		BATTEN_OK);
+	assert_true(run.device[0] && run.strict && run.warning[0] == 0);
 	for (int p = 0; p < COUNT; p++) {
 		assert_true(fabs(points[p].ratio - pow(10.0, p + 1)) <= 1e-12 * points[p].ratio);
 		assert_false(points[p].dominated);
@@ -83,8 +86,9 @@ static void test_dominated(void **state)
 	fixture *f = *state;
 	batten_front_point points[COUNT];
 	f->options.search.iteration_limit = 1;
-	assert_int_equal(batten_hull_front(f->context, f->hull, &f->options, 1e-3, 1e3, COUNT, points),
-	                 BATTEN_INCOMPLETE);
+	assert_int_equal(
+		batten_hull_front(f->context, f->hull, &f->options, 1e-3, 1e3, COUNT, points, NULL),
+		BATTEN_INCOMPLETE);
 	f->options.search.iteration_limit = 400;
 	for (int a = 0; a < COUNT; a++) {
 		bool dominated = false;
@@ -111,17 +115,19 @@ static void test_refusals(void **state)
 		           { 1.0, 2.0, 0 },      { 1.0, 2.0, 5000 } };
 	for (size_t r = 0; r < sizeof ranges / sizeof ranges[0]; r++)
 		assert_int_equal(batten_hull_front(f->context, f->hull, &f->options, ranges[r].low,
-		                                   ranges[r].high, ranges[r].count, points),
+		                                   ranges[r].high, ranges[r].count, points, NULL),
 		                 BATTEN_USAGE);
 	batten_fair_options options = f->options;
 	options.weights_given = true;
 	options.w1 = options.w2 = 1.0;
-	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points),
-	                 BATTEN_USAGE);
+	assert_int_equal(
+		batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points, NULL),
+		BATTEN_USAGE);
 	options = f->options;
 	options.method = BATTEN_METHOD_SMOOTH;
-	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points),
-	                 BATTEN_USAGE);
+	assert_int_equal(
+		batten_hull_front(f->context, f->hull, &options, 1.0, 2.0, COUNT, points, NULL),
+		BATTEN_USAGE);
 	assert_int_equal(batten_picture_front(f->context, "none", 1, points, "none.svg"), BATTEN_USAGE);
 }
 
@@ -138,11 +144,12 @@ static void test_front_keeps_measures(void **state)
 	batten_fair_options options = f->options;
 	batten_front_point points[FEW], free_points[FEW];
 	unsigned held = 0;
-	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, free_points),
-	                 BATTEN_OK);
+	assert_int_equal(
+		batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, free_points, NULL),
+		BATTEN_OK);
 	options.keep = &keep;
 	options.keep_count = 1;
-	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, points),
+	assert_int_equal(batten_hull_front(f->context, f->hull, &options, 1e3, 1e6, FEW, points, NULL),
 	                 BATTEN_OK);
 	options.weights_given = true;
 	options.w1 = 1.0;

@@ -20,7 +20,7 @@ static batten_fair_options net_options(void)
 static void sweep(batten_context *context, const batten_hull *hull,
                   const batten_fair_options *options, batten_front_point *points)
 {
-	if (batten_hull_front(context, hull, options, 10.0, 1e5, COUNT, points) != BATTEN_OK)
+	if (batten_hull_front(context, hull, options, 10.0, 1e5, COUNT, points, NULL) != BATTEN_OK)
 		fail_msg("%s", batten_context_error(context));
 }
 
@@ -224,13 +224,14 @@ static void test_limit(void **state)
 	batten_fair_options options = net_options();
 	batten_front_point points[COUNT];
 	options.search.iteration_limit = 1;
-	assert_int_equal(batten_hull_front(*state, hull, &options, 10.0, 1e5, COUNT, points),
+	assert_int_equal(batten_hull_front(*state, hull, &options, 10.0, 1e5, COUNT, points, NULL),
 	                 BATTEN_INCOMPLETE);
 	assert_non_null(strstr(batten_context_error(*state), "w2/w1 = 10"));
 	release(points);
 	/* What the limit left, a polish ends. */
 	options.polish_gap = 1e-9;
-	assert_int_equal(batten_hull_front(*state, hull, &options, 1e3, 1e5, COUNT, points), BATTEN_OK);
+	assert_int_equal(batten_hull_front(*state, hull, &options, 1e3, 1e5, COUNT, points, NULL),
+	                 BATTEN_OK);
 	release(points);
 	batten_hull_destroy(hull);
 }
@@ -239,7 +240,8 @@ static void expect_fault(batten_context *context, const batten_hull *hull,
                          const batten_fair_options *options, batten_status status, const char *says)
 {
 	batten_front_point points[COUNT];
-	assert_int_equal(batten_hull_front(context, hull, options, 10.0, 1e5, COUNT, points), status);
+	assert_int_equal(batten_hull_front(context, hull, options, 10.0, 1e5, COUNT, points, NULL),
+	                 status);
 	if (!strstr(batten_context_error(context), says) || strchr(batten_context_error(context), '\n'))
 		fail_msg("found: %s", batten_context_error(context));
 }
@@ -281,7 +283,8 @@ static batten_status sweep_once(batten_context *context, const batten_hull *hull
                                 const batten_fair_options *options)
 {
 	batten_front_point points[2];
-	const batten_status status = batten_hull_front(context, hull, options, 1e3, 1e4, 2, points);
+	const batten_status status = batten_hull_front(context, hull, options, 1e3, 1e4, 2, points,
+	                                               NULL);
 	for (int p = 0; p < 2 && status != BATTEN_USAGE; p++) {
 		assert_true((points[p].surface != NULL) == (status == BATTEN_OK));
 		batten_surface_destroy(points[p].surface);

@@ -238,12 +238,13 @@ typedef struct batten_front_point {
  * offsets, or over the poles of one fitted surface, then keeps what is to be kept and polishes, point by point: the
  * fairness-closeness front of a hull. points: the caller's, count of them, ratios ascending; each is what
  * batten_hull_fair() comes to with its weights. options as for that, without weights; NULL: the default.
- * 0 < ratio_low < ratio_high, both 1e-100 .. 1e100; count 2 .. 4096. Returns INCOMPLETE when a search
- * met its iteration limit. Errors: those of batten_hull_fair(); no surface is made then. */
+ * 0 < ratio_low < ratio_high, both 1e-100 .. 1e100; count 2 .. 4096. run (may be NULL) gets how the last of the
+ * searches ran. Returns INCOMPLETE when a search met its iteration limit. Errors: those of batten_hull_fair(); no
+ * surface is made then. */
 BATTEN_API batten_status batten_hull_front(batten_context *context, const batten_hull *hull,
                                            const batten_fair_options *options, double ratio_low,
                                            double ratio_high, size_t count,
-                                           batten_front_point *points);
+                                           batten_front_point *points, batten_run *run);
 
 #ifdef __cplusplus
 }
