@@ -1,5 +1,6 @@
 /* Whole net searches in many shapes of the kernel, lanes and work-items, local and global state, both
  * precisions, every fairness, by both searches, equal the C path bit for bit. */
+#include "support/kernel_compile.h"
 #include "support/net_case.h"
 
 #include <math.h>
@@ -89,6 +90,7 @@ static void test_lanes(void **state)
 static void test_work_groups(void **state)
 {
 	(void)state;
+	kernels_unoptimised(true);
 	net_case c = net_case_wigley(0.1);
 	check(&c, (net_shape){ BATTEN_F64, 1, 7, BATTEN_FAIRNESS_BENDING, 0 });
 	check(&c, (net_shape){ BATTEN_F64, 1, 64, BATTEN_FAIRNESS_BENDING, 0 });
@@ -99,6 +101,7 @@ static void test_work_groups(void **state)
 static void test_fairness(void **state)
 {
 	(void)state;
+	kernels_unoptimised(false);
 	net_case c = net_case_wigley(0.1);
 	for (int f = BATTEN_FAIRNESS_MEAN; f <= BATTEN_FAIRNESS_VARIATION; f++) {
 		check(&c, (net_shape){ BATTEN_F64, 0, 0, (batten_fairness)f, 0 });
