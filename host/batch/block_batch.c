@@ -2,6 +2,7 @@
 #include "batch/block_engine.h"
 #include "batch/block_reference.h"
 #include "batch/search_batch.h"
+#include "batch/search_result.h"
 
 typedef struct batch {
 	batch_work work; /* first: the callbacks get it */
@@ -50,15 +51,12 @@ static batten_status run_on_reference(batch_work *work)
 	return status;
 }
 
-/* Part of the lanes' turns in which they had a search; the C path has one lane, always at work. */
 static double lane_use(const batch *b)
 {
 	uint64_t used = 0;
 	for (size_t p = 0; p < b->call->count; p++)
 		used += b->call->results[p].iterations;
-	if (b->lane_turns == 0 || used > b->lane_turns)
-		return b->lane_turns == 0 ? 1.0 : 0.0;
-	return (double)used / (double)b->lane_turns;
+	return search_lane_use(used, b->lane_turns);
 }
 
 batten_status block_batch_run(const search_call *call, batten_run *run)

@@ -1,6 +1,7 @@
 #include "batch/block_pack.h"
 
 #include "batch/block_hats.h"
+#include "batch/number.h"
 #include "batch/search_pack.h"
 #include "batch/search_result.h"
 #include "core/runs.h"
@@ -215,13 +216,6 @@ void block_pack(const search_plan *plan, const batten_search_problem *problem, v
 	put_apart(plan, settings, 0, 1, chosen, BLOCK_SETTING_COUNT);
 }
 
-static double get(const search_plan *plan, const void *numbers, size_t at)
-{
-	if (plan->options.precision == BATTEN_F64)
-		return ((const double *)numbers)[at];
-	return (double)((const float *)numbers)[at];
-}
-
 static size_t count_terms(const search_plan *plan, const batten_search_problem *problem)
 {
 	if (!problem->nodes)
@@ -252,6 +246,6 @@ void block_unpack(const search_plan *plan, const batten_search_problem *problem,
 	search_take_ends(plan, problem, y_m);
 	double values[BLOCK_OUTCOME_COUNT];
 	for (size_t v = 0; v < BLOCK_OUTCOME_COUNT; v++)
-		values[v] = get(plan, outcome, v);
+		values[v] = number_get(plan->options.precision, outcome, v);
 	*result = search_result_of_block(values, BLOCK_PROBES_A_NODE, count_terms(plan, problem));
 }

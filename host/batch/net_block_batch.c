@@ -2,6 +2,7 @@
 
 #include "batch/net_block_engine.h"
 #include "batch/net_block_reference.h"
+#include "batch/search_result.h"
 #include "batch/workers.h"
 
 #include <pthread.h>
@@ -21,7 +22,8 @@ static batten_status open_engine(batch_work *work, size_t index, const batten_de
 
 static size_t block_of(const batch_work *work, const batch_engine *engine)
 {
-	return net_block_engine_block(engine, ((const batch *)work)->plan);
+	(void)work;
+	return net_block_engine_block(engine);
 }
 
 static batten_status run_block(batch_work *work, batch_engine *engine, const size_t *which,
@@ -47,15 +49,12 @@ static batten_status run_on_reference(batch_work *work)
 	return status;
 }
 
-/* Part of the lanes' turns in which they had a search; the C path has one lane, always at work. */
 static double lane_use(const batch *b, const size_t *which, size_t count)
 {
 	uint64_t used = 0;
 	for (size_t p = 0; p < count; p++)
 		used += b->plan->results[which[p]].iterations;
-	if (b->lane_turns == 0 || used > b->lane_turns)
-		return b->lane_turns == 0 ? 1.0 : 0.0;
-	return (double)used / (double)b->lane_turns;
+	return search_lane_use(used, b->lane_turns);
 }
 
 batten_status net_block_batch_run(net_plan *plan, const size_t *which, size_t count,

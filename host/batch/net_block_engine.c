@@ -44,9 +44,8 @@ static size_t units_of(const batch_engine *engine)
 	return device->is_cpu ? units : GROUPS_A_GPU_UNIT * units;
 }
 
-size_t net_block_engine_block(const batch_engine *engine, const net_plan *plan)
+size_t net_block_engine_block(const batch_engine *engine)
 {
-	(void)plan;
 	return units_of(engine) * engine->recipe.lanes * SEARCHES_A_LANE;
 }
 

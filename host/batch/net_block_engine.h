@@ -13,7 +13,7 @@ batten_status net_block_engine_open(const net_plan *plan, size_t index, const ba
                                     batch_engine **out, batten_selftest *result);
 
 /* Searches one launch should have, so that every compute unit has work and memory stays bounded. */
-size_t net_block_engine_block(const batch_engine *engine, const net_plan *plan);
+size_t net_block_engine_block(const batch_engine *engine);
 
 /* Runs the searches whose numbers stand in which[0..count). lane_turns, may be NULL, is added the iterations that
  * the lanes went through, idle or not. Errors: DEVICE, KERNEL, MEMORY. */

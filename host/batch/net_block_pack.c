@@ -1,25 +1,11 @@
 #include "batch/net_block_pack.h"
 
 #include "batch/net_pack.h"
+#include "batch/number.h"
 #include "batch/search_result.h"
 
 /* Most numbers of a group's state in one lane: 128 MiB a group of 8 lanes of f64. */
 enum { STATE_MOST = 1 << 21 };
-
-static void put(const net_plan *plan, void *numbers, size_t at, double value)
-{
-	if (plan->options.precision == BATTEN_F64)
-		((double *)numbers)[at] = value;
-	else
-		((float *)numbers)[at] = (float)value;
-}
-
-static double get(const net_plan *plan, const void *numbers, size_t at)
-{
-	if (plan->options.precision == BATTEN_F64)
-		return ((const double *)numbers)[at];
-	return (double)((const float *)numbers)[at];
-}
 
 static bool is_turned(const net_plan *plan)
 {
@@ -156,7 +142,8 @@ void net_block_pack_tables(const net_plan *plan, const net_block_shape *shape, v
 {
 	const size_t along_u = shape->u->count * NET_TABLE_SIZE(shape->u->order);
 	for (size_t n = 0; n < net_block_table_count(shape); n++)
-		put(plan, tables, n, n < along_u ? shape->u->table[n] : shape->v->table[n - along_u]);
+		number_put(plan->options.precision, tables, n,
+		           n < along_u ? shape->u->table[n] : shape->v->table[n - along_u]);
 }
 
 void net_block_pack(const net_plan *plan, size_t which, void *input, void *settings,
@@ -175,7 +162,7 @@ void net_block_pack(const net_plan *plan, size_t which, void *input, void *setti
 			                                       [BLOCK_INPUT_X] = item->poles_m[3 * n],
 			                                       [BLOCK_INPUT_Z] = item->poles_m[3 * n + 2] };
 		for (size_t a = 0; a < BLOCK_INPUT_COUNT; a++)
-			put(plan, input, a * poles + turn_of(plan, n), values[a]);
+			number_put(plan->options.precision, input, a * poles + turn_of(plan, n), values[a]);
 	}
 	const double chosen[BLOCK_SETTING_COUNT] = {
 		[BLOCK_SETTING_LONGEST] = 4.0 * plan->options.first_step * h,
@@ -185,7 +172,7 @@ void net_block_pack(const net_plan *plan, size_t which, void *input, void *setti
 		[BLOCK_SETTING_CLOSE] = item->w2 / (h * h * (h * h)),
 	};
 	for (size_t v = 0; v < BLOCK_SETTING_COUNT; v++)
-		put(plan, settings, v, chosen[v]);
+		number_put(plan->options.precision, settings, v, chosen[v]);
 }
 
 void net_block_unpack(const net_plan *plan, size_t which, const void *input, const void *outcome)
@@ -193,12 +180,13 @@ void net_block_unpack(const net_plan *plan, size_t which, const void *input, con
 	double values[BLOCK_OUTCOME_COUNT];
 	const size_t poles = net_plan_poles(plan);
 	for (size_t v = 0; v < BLOCK_OUTCOME_COUNT; v++)
-		values[v] = get(plan, outcome, v);
+		values[v] = number_get(plan->options.precision, outcome, v);
 	plan->results[which] = search_result_of_block(values, NET_BLOCK_PROBES,
 	                                              plan->u.count * plan->v.count);
 	if (plan->results[which].end == BATTEN_SEARCH_REFUSED)
 		return;
 	for (size_t n = 0; n < poles; n++)
 		net_pack_take(plan, which, n,
-		              get(plan, input, BLOCK_INPUT_START * poles + turn_of(plan, plan->leader[n])));
+		              number_get(plan->options.precision, input,
+		                         BLOCK_INPUT_START * poles + turn_of(plan, plan->leader[n])));
 }

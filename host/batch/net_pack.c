@@ -1,5 +1,6 @@
 #include "batch/net_pack.h"
 
+#include "batch/number.h"
 #include "batch/search_result.h"
 
 #include <math.h>
@@ -8,21 +9,6 @@
 #define BATTEN_DOUBLE 1
 #include "shared/dialect.h"
 #include "shared/surface_point.h"
-
-static void put(const net_plan *plan, void *numbers, size_t at, double value)
-{
-	if (plan->options.precision == BATTEN_F64)
-		((double *)numbers)[at] = value;
-	else
-		((float *)numbers)[at] = (float)value;
-}
-
-static double get(const net_plan *plan, const void *numbers, size_t at)
-{
-	if (plan->options.precision == BATTEN_F64)
-		return ((const double *)numbers)[at];
-	return (double)((const float *)numbers)[at];
-}
 
 double net_pack_rounded(const net_plan *plan, double value)
 {
@@ -49,15 +35,15 @@ void net_pack_tables(const net_plan *plan, void *tables)
 {
 	const size_t along_u = plan->u.count * NET_TABLE_SIZE(plan->u.order);
 	for (size_t n = 0; n < along_u; n++)
-		put(plan, tables, n, plan->u.table[n]);
+		number_put(plan->options.precision, tables, n, plan->u.table[n]);
 	for (size_t n = along_u; n < net_pack_table_count(plan); n++)
-		put(plan, tables, n, plan->v.table[n - along_u]);
+		number_put(plan->options.precision, tables, n, plan->v.table[n - along_u]);
 }
 
 void net_pack_heights(const net_plan *plan, void *heights)
 {
 	for (size_t n = 0; n < plan->directions.member_count; n++)
-		put(plan, heights, n, plan->directions.heights[n]);
+		number_put(plan->options.precision, heights, n, plan->directions.heights[n]);
 }
 
 size_t net_pack_sample_count(const net_plan *plan)
@@ -150,17 +136,19 @@ static void pack_sample(const net_plan *plan, const net_item *item, size_t line,
 		const double first[5] = { d[1][0], d[0][1], d[2][0], d[1][1], d[0][2] };
 		const double third[4] = { d[3][0], d[2][1], d[1][2], d[0][3] };
 		for (size_t n = 0; n < 5; n++)
-			put(plan, samples, (at + (size_t)field_places[f][0] + n) * lanes + lane, first[n]);
+			number_put(plan->options.precision, samples,
+			           (at + (size_t)field_places[f][0] + n) * lanes + lane, first[n]);
 		for (size_t n = 0; n < 4 && size == NET_SAMPLE_SIZE_THIRD; n++)
-			put(plan, samples, (at + (size_t)field_places[f][1] + n) * lanes + lane, third[n]);
+			number_put(plan->options.precision, samples,
+			           (at + (size_t)field_places[f][1] + n) * lanes + lane, third[n]);
 	}
 	const double flat = fabs(jet[FIELD_X][1][0] * jet[FIELD_Z][0][1] -
 	                         jet[FIELD_X][0][1] * jet[FIELD_Z][1][0]);
 	const double scale = plan->fairness == NET_FAIRNESS_VARIATION ? h * h : 1.0;
-	put(plan, samples, (at + NET_SAMPLE_FAIR) * lanes + lane,
-	    is_regular(plan, jet) ? item->w1 * scale * weight : 0.0);
-	put(plan, samples, (at + NET_SAMPLE_CLOSE) * lanes + lane,
-	    item->w2 * weight * flat / (h * h * (h * h)));
+	number_put(plan->options.precision, samples, (at + NET_SAMPLE_FAIR) * lanes + lane,
+	           is_regular(plan, jet) ? item->w1 * scale * weight : 0.0);
+	number_put(plan->options.precision, samples, (at + NET_SAMPLE_CLOSE) * lanes + lane,
+	           item->w2 * weight * flat / (h * h * (h * h)));
 }
 
 void net_pack(const net_plan *plan, size_t which, size_t lane, size_t lanes, void *samples,
@@ -176,15 +164,18 @@ void net_pack(const net_plan *plan, size_t which, size_t lane, size_t lanes, voi
 			                                     [NET_ARRAY_LOWER] = way + rooms[n].down,
 			                                     [NET_ARRAY_UPPER] = way + rooms[n].up };
 		for (size_t a = 0; a < NET_ARRAY_COUNT; a++)
-			put(plan, arrays, (a * poles + n) * lanes + lane, values[a]);
+			number_put(plan->options.precision, arrays, (a * poles + n) * lanes + lane, values[a]);
 	}
 	for (size_t k = 0; k < plan->v.count; k++)
 		for (size_t i = 0; i < plan->u.count; i++)
 			pack_sample(plan, item, k, i, lane, lanes, samples);
 	const double rounding = GAUSS_ROUNDING / (h * h);
-	put(plan, settings, SEARCH_SETTING_FIRST_STEP * lanes + lane, plan->options.first_step * h);
-	put(plan, settings, SEARCH_SETTING_LAST_STEP * lanes + lane, plan->options.last_step * h);
-	put(plan, settings, NET_SETTING_ROUNDING * lanes + lane, rounding * rounding);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_FIRST_STEP * lanes + lane,
+	           plan->options.first_step * h);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_LAST_STEP * lanes + lane,
+	           plan->options.last_step * h);
+	number_put(plan->options.precision, settings, NET_SETTING_ROUNDING * lanes + lane,
+	           rounding * rounding);
 }
 
 void net_pack_take(const net_plan *plan, size_t which, size_t pole, double way)
@@ -205,7 +196,7 @@ void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, c
 	const size_t poles = net_plan_poles(plan);
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
-		values[v] = get(plan, outcome, v * lanes + lane);
+		values[v] = number_get(plan->options.precision, outcome, v * lanes + lane);
 	batten_search_result *result = &plan->results[which];
 	*result = search_result_of(&plan->options, item->half_beam_m, values);
 	if (result->end == BATTEN_SEARCH_REFUSED)
@@ -213,5 +204,6 @@ void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, c
 	net_rooms_of(plan, item, rooms);
 	result->probes += 2 * (uint64_t)result->iterations * net_directions_moving(plan, rooms);
 	for (size_t n = 0; n < poles; n++)
-		net_pack_take(plan, which, n, get(plan, y, plan->leader[n] * lanes + lane));
+		net_pack_take(plan, which, n,
+		              number_get(plan->options.precision, y, plan->leader[n] * lanes + lane));
 }

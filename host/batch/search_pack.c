@@ -1,5 +1,6 @@
 #include "batch/search_pack.h"
 
+#include "batch/number.h"
 #include "batch/search_result.h"
 #include "core/runs.h"
 
@@ -16,21 +17,6 @@ size_t search_scalar_size(const search_plan *plan)
 	return plan->options.precision == BATTEN_F64 ? sizeof(double) : sizeof(float);
 }
 
-static void put(const search_plan *plan, void *numbers, size_t at, double value)
-{
-	if (plan->options.precision == BATTEN_F64)
-		((double *)numbers)[at] = value;
-	else
-		((float *)numbers)[at] = (float)value;
-}
-
-static double get(const search_plan *plan, const void *numbers, size_t at)
-{
-	if (plan->options.precision == BATTEN_F64)
-		return ((const double *)numbers)[at];
-	return (double)((const float *)numbers)[at];
-}
-
 size_t search_stencil_count(const search_plan *plan)
 {
 	const size_t third = plan->third_x ? STENCIL_THIRD : 0;
@@ -42,7 +28,7 @@ static size_t put_all(const search_plan *plan, void *numbers, size_t at, const d
                       size_t count)
 {
 	for (size_t n = 0; n < count; n++)
-		put(plan, numbers, at + n, values[n]);
+		number_put(plan->options.precision, numbers, at + n, values[n]);
 	return at + count;
 }
 
@@ -133,14 +119,16 @@ static void pack_node(const search_plan *plan, const batten_search_problem *prob
 	double upper = problem->upper_m[node];
 	if (plan->penalties && !search_box_inside(plan->options.precision, &lower, &upper))
 		lower = upper = start;
-	put(plan, arrays, SEARCH_ARRAY_Y * array + at, start);
-	put(plan, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
-	put(plan, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
-	put(plan, arrays, SEARCH_ARRAY_TARGET * array + at, problem->target_m[node]);
-	put(plan, arrays, SEARCH_ARRAY_CLOSE * array + at, problem->w2 * weight * cell / (h2 * h2));
+	number_put(plan->options.precision, arrays, SEARCH_ARRAY_Y * array + at, start);
+	number_put(plan->options.precision, arrays, SEARCH_ARRAY_LOWER * array + at, lower);
+	number_put(plan->options.precision, arrays, SEARCH_ARRAY_UPPER * array + at, upper);
+	number_put(plan->options.precision, arrays, SEARCH_ARRAY_TARGET * array + at,
+	           problem->target_m[node]);
+	number_put(plan->options.precision, arrays, SEARCH_ARRAY_CLOSE * array + at,
+	           problem->w2 * weight * cell / (h2 * h2));
 	if (has_term(plan, problem, i, k))
-		put(plan, arrays, SEARCH_ARRAY_BEND * array + at,
-		    problem->w1 * cell * (plan->fairness == GRID_VARIATION ? h2 : 1.0));
+		number_put(plan->options.precision, arrays, SEARCH_ARRAY_BEND * array + at,
+		           problem->w1 * cell * (plan->fairness == GRID_VARIATION ? h2 : 1.0));
 }
 
 void search_pack(const search_plan *plan, const batten_search_problem *problems, size_t which,
@@ -151,22 +139,23 @@ void search_pack(const search_plan *plan, const batten_search_problem *problems,
 		for (size_t i = 0; i < plan->station_count; i++)
 			if (on_hull(problem, k * plan->station_count + i))
 				pack_node(plan, problem, i, k, lane, lanes, arrays);
-	put(plan, settings, SEARCH_SETTING_FIRST_STEP * lanes + lane,
-	    plan->options.first_step * problem->half_beam_m);
-	put(plan, settings, SEARCH_SETTING_LAST_STEP * lanes + lane,
-	    plan->options.last_step * problem->half_beam_m);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_FIRST_STEP * lanes + lane,
+	           plan->options.first_step * problem->half_beam_m);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_LAST_STEP * lanes + lane,
+	           plan->options.last_step * problem->half_beam_m);
 	const double h2 = problem->half_beam_m * problem->half_beam_m;
 	const double blunt = GAUSS_ROUNDING / h2;
-	put(plan, settings, SEARCH_SETTING_ALONG * lanes + lane,
-	    sqrt(plan->options.longitudinal_weight));
-	put(plan, settings, SEARCH_SETTING_ACROSS * lanes + lane,
-	    sqrt(plan->options.transverse_weight));
-	put(plan, settings, SEARCH_SETTING_BLUNT * lanes + lane, blunt * blunt);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_ALONG * lanes + lane,
+	           sqrt(plan->options.longitudinal_weight));
+	number_put(plan->options.precision, settings, SEARCH_SETTING_ACROSS * lanes + lane,
+	           sqrt(plan->options.transverse_weight));
+	number_put(plan->options.precision, settings, SEARCH_SETTING_BLUNT * lanes + lane,
+	           blunt * blunt);
 	const int narrow = plan->level_count - search_plan_wide_levels(plan);
-	put(plan, settings, SEARCH_SETTING_WIDE_PROBES * lanes + lane,
-	    2.0 * (double)search_problem_directions(plan, problem, narrow, plan->level_count));
-	put(plan, settings, SEARCH_SETTING_PENALTY * lanes + lane,
-	    plan->penalties ? plan->penalties[which] : 0.0);
+	number_put(plan->options.precision, settings, SEARCH_SETTING_WIDE_PROBES * lanes + lane,
+	           2.0 * (double)search_problem_directions(plan, problem, narrow, plan->level_count));
+	number_put(plan->options.precision, settings, SEARCH_SETTING_PENALTY * lanes + lane,
+	           plan->penalties ? plan->penalties[which] : 0.0);
 }
 
 INLINED void end_each(size_t count, bool rounds, const double *restrict start_m,
@@ -217,11 +206,11 @@ void search_unpack(const search_plan *plan, const batten_search_problem *problem
 		for (size_t i = 0; i < plan->station_count; i++) {
 			const size_t node = k * plan->station_count + i;
 			const size_t place = (k + 1) * (plan->station_count + 2) + (i + 1);
-			y_m[node] = get(plan, y, place * lanes + lane);
+			y_m[node] = number_get(plan->options.precision, y, place * lanes + lane);
 		}
 	search_take_ends(plan, problem, y_m);
 	double values[SEARCH_OUTCOME_COUNT];
 	for (size_t v = 0; v < SEARCH_OUTCOME_COUNT; v++)
-		values[v] = get(plan, outcome, v * lanes + lane);
+		values[v] = number_get(plan->options.precision, outcome, v * lanes + lane);
 	*result = search_result_of(&plan->options, problem->half_beam_m, values);
 }

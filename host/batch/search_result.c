@@ -61,6 +61,13 @@ batten_search_result search_result_refused(const char *fault)
 	return result;
 }
 
+double search_lane_use(uint64_t iterations, uint64_t lane_turns)
+{
+	if (lane_turns == 0)
+		return 1.0;
+	return iterations > lane_turns ? 0.0 : (double)iterations / (double)lane_turns;
+}
+
 batten_status search_results_judge(batten_context *context, size_t count,
                                    const batten_search_result *results)
 {

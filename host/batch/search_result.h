@@ -24,6 +24,10 @@ batten_search_result search_result_of_block(const double values[BLOCK_OUTCOME_CO
                                             unsigned probes, size_t terms);
 batten_search_result search_result_refused(const char *fault);
 
+/* Part of the lanes' turns in which they had a search, whose iterations are so many in all; without turns, on the C
+ * path, 1: it has one lane, always at work. 0: not known. */
+double search_lane_use(uint64_t iterations, uint64_t lane_turns);
+
 /* OK, or an error that names the first search refused or at its limit. Errors: INCOMPLETE. */
 batten_status search_results_judge(batten_context *context, size_t count,
                                    const batten_search_result *results);

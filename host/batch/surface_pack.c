@@ -1,14 +1,8 @@
 #include "batch/surface_pack.h"
 
-#include <string.h>
+#include "batch/number.h"
 
-static void put(const surface_plan *plan, void *numbers, size_t at, double value)
-{
-	if (plan->precision == BATTEN_F64)
-		((double *)numbers)[at] = value;
-	else
-		((float *)numbers)[at] = (float)value;
-}
+#include <string.h>
 
 static size_t number_size(const surface_plan *plan)
 {
@@ -23,7 +17,7 @@ size_t surface_pack_table_size(const surface_plan *plan, const surface_samples *
 void surface_pack_table(const surface_plan *plan, const surface_samples *samples, void *table)
 {
 	for (size_t n = 0; n < samples->count * SURFACE_TABLE_SIZE(samples->rows, samples->order); n++)
-		put(plan, table, n, samples->table[n]);
+		number_put(plan->precision, table, n, samples->table[n]);
 }
 
 size_t surface_pack_net_count(const surface_plan *plan)
@@ -58,7 +52,7 @@ void surface_pack_net(const surface_plan *plan, const surface_item *item, size_t
 		pack_doubles(plan, item, lanes, (double *)net + lane);
 	else
 		pack_floats(plan, item, lanes, (float *)net + lane);
-	put(plan, least_area, lane, (angle * item->area) * (angle * item->area));
+	number_put(plan->precision, least_area, lane, (angle * item->area) * (angle * item->area));
 }
 
 /* The loops over all that was computed, written for both precisions: a test for each number would
@@ -127,13 +121,6 @@ void surface_mark_line(const surface_plan *plan, size_t which, size_t line, bool
 		mark_doubles((double *)plan->values + mean, none, plan->u.count, singular);
 }
 
-static double get(const surface_plan *plan, const void *numbers, size_t at)
-{
-	if (plan->precision == BATTEN_F64)
-		return ((const double *)numbers)[at];
-	return (double)((const float *)numbers)[at];
-}
-
 void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_t lane,
                       size_t lanes, const void *numbers)
 {
@@ -141,7 +128,7 @@ void surface_add_sums(const surface_plan *plan, size_t which, size_t line, size_
 	const double weight = plan->v.table[line * size + size - 1];
 	double *sums = (double *)plan->values + which * SURFACE_SUM_COUNT;
 	for (size_t v = 0; v < SURFACE_SUM_COUNT; v++) {
-		const double sum = get(plan, numbers, v * lanes + lane);
+		const double sum = number_get(plan->precision, numbers, v * lanes + lane);
 		const bool counts = v == SURFACE_SUM_SINGULAR || v == SURFACE_SUM_LEFT_OUT;
 		sums[v] = (line == 0 ? 0.0 : sums[v]) + (counts ? sum : weight * sum);
 	}
