@@ -9,6 +9,11 @@
 /* Numbers of the largest band that is factored: half a gigabyte. */
 #define BAND_LIMIT ((size_t)1 << 26)
 
+/* What a Hessian that is not positive definite is raised by, as a part of the largest number of its diagonal. */
+#define LEAST_RAISE 1e-4
+#define MORE_RAISE 8.0
+enum { RAISES = 10 };
+
 static void say(batten_certificate *out, const char *message)
 {
 	(void)snprintf(out->message, sizeof out->message, "%s", message);
@@ -97,18 +102,46 @@ void newton_answer(const newton_factor *factor, const double *slopes, double *wa
 		ways[n] = number[n] == NEWTON_HELD ? 0.0 : factor->right[number[n]];
 }
 
-/* 1/2 g^T H^-1 g; NaN where H is not positive definite. */
-static double decrement(size_t count, size_t width, double *band, const double *gradient,
-                        double *step)
+static void raise_diagonal(size_t count, size_t width, double part, double *band)
 {
-	double sum = 0.0;
-	if (band_factor(count, width, band) < count)
-		return NAN;
-	memcpy(step, gradient, count * sizeof *step);
-	band_solve(count, width, band, step);
+	double most = 0.0;
 	for (size_t n = 0; n < count; n++)
+		most = fmax(most, fabs(band[n * (width + 1) + width]));
+	for (size_t n = 0; n < count; n++)
+		band[n * (width + 1) + width] += part * most;
+}
+
+/* Factors H. Where it is not positive definite its diagonal is raised until it is: a step is then downhill, and the
+ * shorter the more it is raised (Levenberg's method). Returns how often that was, RAISES where it did not do. */
+static int factor_raised(const newton_system *system, size_t width, double *band)
+{
+	double part = LEAST_RAISE / MORE_RAISE;
+	for (int raised = 0; raised < RAISES; raised++) {
+		memset(band, 0, system->count * (width + 1) * sizeof *band);
+		system->assemble(system->of, width, band);
+		if (raised > 0)
+			raise_diagonal(system->count, width, part, band);
+		if (band_factor(system->count, width, band) == system->count)
+			return raised;
+		part *= MORE_RAISE;
+	}
+	return RAISES;
+}
+
+/* Turns a step that is the gradient into H^-1 times it. Returns 1/2 g^T H^-1 g; NaN where H is not positive
+ * definite: then the step is that of the raised H, or nothing. */
+static double decrement(const newton_system *system, size_t width, double *band,
+                        const double *gradient, double *step)
+{
+	const int raised = factor_raised(system, width, band);
+	double sum = 0.0;
+	if (raised < RAISES)
+		band_solve(system->count, width, band, step);
+	else
+		memset(step, 0, system->count * sizeof *step);
+	for (size_t n = 0; n < system->count; n++)
 		sum += gradient[n] * step[n];
-	return 0.5 * sum;
+	return raised == 0 ? 0.5 * sum : NAN;
 }
 
 /* gradient, step: by unknown; step is the gradient before. */
@@ -125,14 +158,14 @@ static batten_status estimate(const newton_system *system, const double *gradien
 	}
 	const size_t width = system->width(system->of);
 	if (width + 1 > BAND_LIMIT / count) {
+		memset(step, 0, count * sizeof *step);
 		say(out, "the factor of the Hessian would be too large");
 		return BATTEN_OK;
 	}
 	double *band = batten_allocate(context, count, (width + 1) * sizeof *band);
 	if (!band)
 		return BATTEN_MEMORY;
-	system->assemble(system->of, width, band);
-	out->gap_estimate = (decrement(count, width, band, gradient, step) + system->last) * scale;
+	out->gap_estimate = (decrement(system, width, band, gradient, step) + system->last) * scale;
 	if (isnan(out->gap_estimate))
 		say(out, "the Hessian is not positive definite over what is free");
 	batten_release(context, band);
@@ -179,7 +212,7 @@ batten_status newton_polish(const newton_way *way, double gap, double *y, batten
 	enum { STEPS = 100, HALVINGS = 30 };
 	double *before = batten_allocate(way->context, way->count, sizeof *before);
 	batten_status status = before ? way->judge(way->of, y, out) : BATTEN_MEMORY;
-	for (unsigned step = 1; step <= STEPS && status == BATTEN_OK && out->gap_estimate > gap;
+	for (unsigned step = 1; step <= STEPS && status == BATTEN_OK && !(out->gap_estimate <= gap);
 	     step++) {
 		double part = 1.0;
 		int halvings = 0;

@@ -32,6 +32,7 @@ static const cli_command command = {
 		"NAME-faired by default. Minimises w1 * fairness + w2 * closeness / h^4 (h: half-beam) over\n"
 		"the positive offsets; profile points stay. Without weights the change is held to 0.75 of the\n"
 		"noise of the offsets. f32 comes within 3e-4 of the objective that f64 reaches.\n"
+		"Where there is no gap_estimate the search ended near no minimum; --polish goes on from there.\n"
 		"--variables net fits a B-spline surface and searches y of its poles; x, z and knots stay. Rows run\n"
 		"along the hull from the keel (0), columns along the girth from the stern (0). Poles stay within\n"
 		"--max-distance of the fit, and so does the surface; station:, waterline: and point: lock all poles\n"
@@ -315,8 +316,8 @@ static batten_status parse(int argc, char **argv, fair_request *request, bool *d
 		  "keep bounds by r sum 1/g, r falling (thesis 7.1), not by moves that end at them: --search "
 		  "multilevel, three to six times the work" },
 		{ "polish", CLI_NUMBER, &request->polish, "GAP",
-		  "finish in f64, by Newton steps, where gap_estimate is above this, e.g. 1e-9; with --precision "
-		  "f32 the search only screens" },
+		  "finish in f64, by Newton steps, where gap_estimate is above this, e.g. 1e-9, or there is none; "
+		  "with --precision f32 the search only screens" },
 		{ "lower", CLI_TEXT, &request->lower_path, "FILE", "lower offsets on the same table" },
 		{ "upper", CLI_TEXT, &request->upper_path, "FILE", "upper offsets on the same table" },
 		{ "no-smooth", CLI_FLAG, &request->no_smooth, NULL, "leave gross errors as they are" },

@@ -201,12 +201,12 @@ static void test_batch(void **state)
 	search_case_close(&c);
 }
 
-/* Polishing: from f32's end, and from where a few iterations leave a search, to the oracle's minimum, in
- * the box; a batch of threads as one by one. */
+/* Polishing: from f32's end, from where a few iterations leave a search, and from the start, where there is no
+ * estimate, to the oracle's minimum, in the box; a batch of threads as one by one. */
 static void test_polish(void **state)
 {
 	(void)state;
-	enum { COUNT = 4 };
+	enum { COUNT = 5 };
 	for (size_t h = 0; h < HULL_COUNT; h += 2) {
 		search_case c = search_case_open(hulls[h], 0.01, true);
 		batten_search_problem problems[COUNT];
@@ -216,12 +216,14 @@ static void test_polish(void **state)
 		batten_search_options options = reference_options();
 		options.precision = BATTEN_F32;
 		for (size_t p = 0; p < COUNT; p++) {
-			problems[p] = search_case_problem(&c, 1.0, p % 2 ? 1e5 : 1e3);
+			problems[p] = search_case_problem(&c, 1.0, p == 4 ? 10.0 : p % 2 ? 1e5 : 1e3);
 			options.iteration_limit = p < 2 ? 400 : 4;
 			(void)search_case_run(&c, &problems[p], &options, y + p * c.nodes);
-			assert_true(
-				search_case_certify(&c, &problems[p], &options, y + p * c.nodes).gap_estimate >
-				1e-12);
+			if (p == 4)
+				memcpy(y + p * c.nodes, problems[p].start_m, c.nodes * sizeof *y);
+			const batten_certificate before = search_case_certify(&c, &problems[p], &options,
+			                                                      y + p * c.nodes);
+			assert_true(p == 4 ? isnan(before.gap_estimate) : before.gap_estimate > 1e-12);
 		}
 		memcpy(y + COUNT * c.nodes, y + 3 * c.nodes, c.nodes * sizeof *y);
 		assert_int_equal(batten_search_polish_batch(c.context, &c.grid, COUNT, problems, &options,

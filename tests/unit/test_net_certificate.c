@@ -174,6 +174,34 @@ static void test_polish(void **state)
 	net_case_close(&c);
 }
 
+/* Where the Hessian is not positive definite there is no estimate, and a polish goes on all the same: from the
+ * start to where the search ends. */
+static void test_polish_from_no_estimate(void **state)
+{
+	(void)state;
+	net_case c = net_case_wigley(0.1);
+	const batten_net_problem problem = net_case_problem(&c, 1.0, 10.0);
+	double *y = room_for(&c);
+	for (int f = BATTEN_FAIRNESS_BENDING; f <= BATTEN_FAIRNESS_MEAN; f++) {
+		const batten_net_options options = options_of((batten_fairness)f, 400);
+		batten_certificate end;
+		const double known = search(&c, &problem, &options, y).objective_end;
+		memcpy(y, c.target, c.poles * sizeof *y);
+		const batten_certificate before = certify(&c, &problem, &options, y);
+		assert_true(isnan(before.gap_estimate));
+		assert_non_null(strstr(before.message, "not positive definite"));
+		assert_int_equal(batten_net_polish_batch(c.context, 1, &problem, &options, 1e-13, y, &end),
+		                 BATTEN_OK);
+		assert_true(end.gap_estimate <= 1e-13 && end.message[0] == '\0');
+		assert_true(end.steps > 1 && end.steps < 40);
+		assert_true(fabs(end.objective / known - 1.0) < 1e-6);
+		for (size_t n = 0; n < c.poles; n++)
+			assert_true(y[n] >= c.lower[n] && y[n] <= c.upper[n]);
+	}
+	free(y);
+	net_case_close(&c);
+}
+
 /* Each fixed pole of the keel is followed: a row that goes with the one beside it is one unknown a pole,
  * and a polish moves both alike. */
 static void test_poles_that_move_together(void **state)
@@ -271,6 +299,7 @@ int main(void)
 		cmocka_unit_test(test_gradient),
 		cmocka_unit_test(test_estimate_is_the_gap),
 		cmocka_unit_test(test_polish),
+		cmocka_unit_test(test_polish_from_no_estimate),
 		cmocka_unit_test(test_poles_that_move_together),
 		cmocka_unit_test(test_what_cannot_be_judged),
 		cmocka_unit_test(test_memory),

@@ -157,8 +157,10 @@ typedef struct batten_certificate {
 	/* The Newton decrement over the free offsets, 1/2 g^T H^-1 g, relative to F: how far F lies above
 	 * the minimum of its parabola, bounds left aside (high, by up to 10 times, where offsets are still
 	 * on their way to one). An offset that f32 has left rounding away from the bound that holds it, or
-	 * an interior penalty inside it, adds what its slope gains on that way. NaN where H is not positive definite over the free offsets, that
-	 * is, where no minimum is near, and where the grid is too large (2^26 numbers of its band). */
+	 * an interior penalty inside it, adds what its slope gains on that way. NaN where H is not positive definite over
+	 * the free offsets, and where the grid is too large (2^26 numbers of its band). The first says that no minimum is
+	 * near: the search ended on its way past a place where the objective bends downward, as its gains faded there
+	 * below what ends a search (f32: 1e-5 of the objective), or by its limit. */
 	double gap_estimate;
 	size_t free_count;
 	unsigned steps;   /* that batten_search_polish_batch took */
@@ -180,8 +182,9 @@ BATTEN_API batten_status batten_search_certify_batch(batten_context *context,
 
 /* Goes on from the ends y_m of count searches, in double, until the gap estimate of each is at most `gap`
  * (above 0): steps of Newton's method over the free offsets, kept in the box, halved until the objective
- * falls. So it finishes what f32 has screened. Certificates are of the new ends; one whose Hessian is
- * not positive definite, or where no step gains, stays above gap. Not of searches with an interior penalty.
+ * falls; where the Hessian is not positive definite, its diagonal is raised until it is. So it finishes what f32
+ * has screened. Certificates are of the new ends; one where no step gains, or 100 do not do, stays above gap or
+ * without an estimate. Not of searches with an interior penalty.
  * Else as batten_search_certify_batch. */
 BATTEN_API batten_status batten_search_polish_batch(batten_context *context,
                                                     const batten_grid *grid, size_t count,
