@@ -160,12 +160,15 @@ static batten_status put_out(const fair_job *job, size_t count, const batten_fro
 	}
 	for (size_t p = 0; p < count; p++)
 		put_row(&points[p], job->options.keep_count, values + p * width);
-	const batten_table table = { .name = batten_hull_name(job->hull),
-		                         .quadrature = by_net ? "gauss" : "differences over 3 x 3 offsets",
-		                         .column_count = width,
-		                         .row_count = count,
-		                         .columns = names,
-		                         .values = values };
+	const batten_table table = {
+		.name = batten_hull_name(job->hull),
+		.quadrature = by_net ? "gauss, a knot span: points of the order, as searched"
+		                     : "differences over 3 x 3 offsets",
+		.column_count = width,
+		.row_count = count,
+		.columns = names,
+		.values = values
+	};
 	batten_status status = write_files(job, &table, points, folder);
 	if (status == BATTEN_OK)
 		status = tell(job, &table, folder);

@@ -230,7 +230,10 @@ static json_t *surface_json(const fair_job *job)
 	json_t *object = json_object();
 	set(object, "frame", json_string("ap-fwd"));
 	set(object, "unit", json_string("m"));
-	set(object, "rule", json_string("energies: Gauss quadrature over every knot span"));
+	set(object, "rule",
+	    json_string(
+			"energies: Gauss quadrature over every knot span, a point more than the order a "
+			"direction"));
 	set(object, "order_u", count(shape.order_u));
 	set(object, "order_v", count(shape.order_v));
 	set(object, "count_u", count(shape.count_u));

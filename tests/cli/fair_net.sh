@@ -72,8 +72,12 @@ awk -F, '/^#/ { next }
 	{ ratio = $1; fair = $2; close_ = $3 }
 	END { if (n != 4 || ratio != 100000) exit 1 }' front/front.csv || fail 'the front over a net is none'
 expect_json front/front.json
+# What is searched and what is measured is integrated by other rules: each says which.
+grep -q '^# quadrature: gauss, a knot span: points of the order, as searched$' front/front.csv ||
+	fail 'the front does not say its rule'
 grep -q '<svg' front/front.svg || fail 'no picture of the front'
 expect 0 fair "$hull" --variables net --net 8x7 --w1 1 --w2 1e5 --device reference --out single --quiet
+grep -q 'a point more than the order a direction' single/report.json || fail 'the report does not say its rule'
 cmp front/surface-0004.json single/surface.json || fail 'a point of the front is not its fairing'
 # A shorter front, and one over offsets, leave no surfaces of this one behind.
 # shellcheck disable=SC2086

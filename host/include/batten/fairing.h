@@ -222,8 +222,9 @@ BATTEN_API batten_fairing_net batten_fairing_describe_net(const batten_fairing *
 /* One way to weigh fairness against closeness, and what it gives (thesis, conclusions: decisions by
  * several objectives). */
 typedef struct batten_front_point {
-	double ratio;               /* w2/w1 */
-	double fairness;            /* the sum of fairness dS of the faired hull or surface */
+	double ratio;    /* w2/w1 */
+	double fairness; /* the sum of fairness dS of the faired hull or surface, as searched:
+	                               NET: at as many Gauss points a span as the order */
 	batten_closeness closeness; /* OFFSETS: to the smoothed hull; NET: of the faired surface to the
 	                               fitted one, closeness_m4 all over it, the rest at the offsets that
 	                               take their half-breadths from it */
