@@ -218,7 +218,7 @@ static void test_bad_rows(void **state)
 static void test_bits_in_every_shape(void **state)
 {
 	(void)state;
-	static const unsigned lanes[] = { 8, 1 }, groups[] = { 1, 3 };
+	static const unsigned lanes[] = { 8, 1 }, groups[] = { 1, 7 };
 	static batten_hydrostatics known[SURFACES * DRAFTS], found[SURFACES * DRAFTS];
 	batten_context *context = make_context();
 	struct family f = fitted_family(context, "bsra_trawler");
