@@ -1,6 +1,10 @@
 /* The plain C path of kernels/hull_variants.cl. */
 #include "reference/hull_variants.h"
 
+#define BATTEN_DOUBLE 1
+#define BATTEN_DIALECT_C
+#include "shared/dialect.h"
+
 #include "reference/inlined.h"
 #include "shared/variants_course.h"
 

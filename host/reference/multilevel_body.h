@@ -5,16 +5,7 @@
 #define BATTEN_DIALECT_C
 #include "shared/dialect.h"
 
-/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too; not under
- * sanitizers, whose checks make 20 s of compiling out of 1, and the search is as fast (inlined.h). */
-#ifdef BATTEN_SANITIZED
-#define INLINED static inline
-#else
-#define INLINED static inline __attribute__((always_inline))
-#endif
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #include "shared/grid_search.h"
 
 INLINED void work_search(const reference_multilevel *plan, const scalar *stencils, scalar *arrays,

@@ -5,14 +5,7 @@
 #define BATTEN_LANES 1
 #include "shared/dialect.h"
 
-/* As inlined.h has it, in both precisions. */
-#ifdef BATTEN_SANITIZED
-#define INLINED static inline
-#else
-#define INLINED static inline __attribute__((always_inline))
-#endif
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #define NET_FAIRNESS (s->fairness)
 #define NET_ORDER_U (s->order_u)
 #define NET_ORDER_V (s->order_v)

@@ -4,11 +4,7 @@
 #define BATTEN_DIALECT_C
 #include "shared/dialect.h"
 
-/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too. */
-#define INLINED static inline __attribute__((always_inline))
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #define NET_FAIRNESS (s->fairness)
 #define NET_ORDER_U (s->order_u)
 #define NET_ORDER_V (s->order_v)

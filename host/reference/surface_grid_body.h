@@ -5,11 +5,7 @@
 #include "shared/dialect.h"
 #include "shared/surface_layout.h"
 
-/* fma() is one instruction where the processor has it and a function of the C library elsewhere, ten
- * times slower with the same result. All is inlined into one function for each, formulas too. */
-#define INLINED static inline __attribute__((always_inline))
-#undef SHARED_FUNCTION
-#define SHARED_FUNCTION INLINED
+#include "reference/inlined.h"
 #include "shared/surface_variation.h"
 
 INLINED int derivatives_of(const reference_surface_grid *shared)

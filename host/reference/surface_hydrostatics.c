@@ -1,6 +1,10 @@
 /* The plain C path of kernels/surface_hydrostatics.cl. */
 #include "reference/surface_hydrostatics.h"
 
+#define BATTEN_DOUBLE 1
+#define BATTEN_DIALECT_C
+#include "shared/dialect.h"
+
 #include "reference/inlined.h"
 #include "shared/afloat_course.h"
 
