@@ -65,10 +65,14 @@ static int child(const char *name, const char *expected, const char *cache)
 	return good ? 0 : 1;
 }
 
-/* Runs child() with the settings "NAME=value" ("NAME" alone removes it) over this environment. */
+/* Runs child() with the settings "NAME=value" ("NAME" alone removes it) over this environment, which tells it
+ * the rest. */
 static int spawn_child(const char *name, const char *expected, const char *cache,
                        const char *const *settings, size_t setting_count)
 {
+	assert_int_equal(setenv("CHILD", name, 1), 0);
+	assert_int_equal(setenv("CHILD_EXPECTED", expected, 1), 0);
+	assert_int_equal(setenv("CHILD_CACHE", cache, 1), 0);
 	size_t count = 0;
 	while (environ[count])
 		count++;
@@ -88,14 +92,13 @@ static int spawn_child(const char *name, const char *expected, const char *cache
 	for (size_t j = 0; j < setting_count; j++)
 		if (strchr(settings[j], '='))
 			variables[used++] = strdup(settings[j]);
-	char *arguments[] = { strdup("test_device"), strdup(name), strdup(expected), strdup(cache),
-		                  NULL };
+	/* A program of all tests is told which one. */
+	char program[] = "test_device", test[] = "device_environment";
+	char *arguments[] = { program, test, NULL };
 	pid_t process = 0;
 	int status = -1;
 	assert_int_equal(posix_spawn(&process, "/proc/self/exe", NULL, NULL, arguments, variables), 0);
 	assert_int_equal(waitpid(process, &status, 0), process);
-	for (size_t i = 0; i < 4; i++)
-		free(arguments[i]);
 	for (size_t j = 0; j < setting_count; j++)
 		if (strchr(settings[j], '='))
 			free(variables[--used]);
@@ -216,10 +219,10 @@ static void test_devices_and_threads(void **state)
 	assert_int_equal(spawn_child("one", "", here->cache, given, 1), 0);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-	if (argc == 4)
-		return child(argv[1], argv[2], argv[3]);
+	if (getenv("CHILD"))
+		return child(getenv("CHILD"), getenv("CHILD_EXPECTED"), getenv("CHILD_CACHE"));
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_without_library),       cmocka_unit_test(test_without_driver),
 		cmocka_unit_test(test_without_writable_home), cmocka_unit_test(test_pocl_folder_of_user),
