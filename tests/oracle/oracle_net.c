@@ -171,20 +171,36 @@ static void parts_of(const net_space *space, const net_node *node, const long do
 	}
 }
 
+static long double share_of_node(const net_space *space, size_t i, size_t k, const long double *y)
+{
+	net_node node;
+	long double part[PARTS];
+	long double off;
+	node_at(space, i, k, &node);
+	parts_of(space, &node, y, part, &off);
+	const long double close = node.close * off * off;
+	return node.fair > 0 ? close + node.fair * density(space, &node, part) : close;
+}
+
 static long double objective_at(const net_space *space, const long double *y)
 {
 	long double sum = 0;
 	for (size_t k = 0; k < space->v.count; k++)
-		for (size_t i = 0; i < space->u.count; i++) {
-			net_node node;
-			long double part[PARTS];
-			long double off;
-			node_at(space, i, k, &node);
-			parts_of(space, &node, y, part, &off);
-			sum += node.close * off * off;
-			if (node.fair > 0)
-				sum += node.fair * density(space, &node, part);
-		}
+		for (size_t i = 0; i < space->u.count; i++)
+			sum += share_of_node(space, i, k, y);
+	return sum;
+}
+
+/* The same of the nodes alone that a pole has to do with. */
+static long double objective_around(const net_space *space, size_t pole, const long double *y)
+{
+	const size_t a = pole % space->problem->surface->count_u;
+	const size_t b = pole / space->problem->surface->count_u;
+	long double sum = 0;
+	for (size_t k = 0; k < space->v.count; k++)
+		for (size_t i = 0; i < space->u.count; i++)
+			if (b - space->v.first[k] < space->v.order && a - space->u.first[i] < space->u.order)
+				sum += share_of_node(space, i, k, y);
 	return sum;
 }
 
@@ -202,6 +218,28 @@ long double oracle_net_objective(const oracle_net_problem *problem, const double
 	free(exact);
 	space_close(&space);
 	return sum;
+}
+
+bool oracle_net_slopes(const oracle_net_problem *problem, const double *y, double step,
+                       double *slopes)
+{
+	net_space space;
+	bool ok = space_open(problem, &space);
+	long double *exact = oracle_reals(space.poles);
+	ok = ok && exact;
+	for (size_t n = 0; ok && n < space.poles; n++)
+		exact[n] = y[n];
+	for (size_t n = 0; ok && n < space.poles; n++) {
+		exact[n] = (long double)y[n] + step;
+		const long double above = objective_around(&space, n, exact);
+		exact[n] = (long double)y[n] - step;
+		slopes[n] = (double)((above - objective_around(&space, n, exact)) /
+		                     (2 * (long double)step));
+		exact[n] = y[n];
+	}
+	free(exact);
+	space_close(&space);
+	return ok;
 }
 
 /* Slope and bend of the density by the parts: differences of fourth order, steps a small part of the

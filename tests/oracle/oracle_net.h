@@ -30,6 +30,10 @@ typedef struct oracle_net_problem {
 /* NaN when memory is short or the knots make no surface. */
 long double oracle_net_objective(const oracle_net_problem *problem, const double *y);
 
+/* The objective's slopes by the y of each pole, [count_v][count_u]: its differences over step to either side. */
+bool oracle_net_slopes(const oracle_net_problem *problem, const double *y, double step,
+                       double *slopes);
+
 /* A local minimum from the start, moved into the box, by a projected Newton method in long double:
  * dense factors, steps of at most 0.04 h, made positive where the objective is not convex. y may be
  * target. bending and closeness of the report are 0. */
