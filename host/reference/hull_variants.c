@@ -15,23 +15,7 @@ INLINED void work_hull(const int32_t *shape, const int32_t *lists, const double 
 	variants_run_group(&s, asked, y, out);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) static void
-work_with_fma(const int32_t *shape, const int32_t *lists, const double *tables, const double *asked,
-              double *y, double *out, double *room)
-{
-	work_hull(shape, lists, tables, asked, y, out, room);
-}
-#endif
-
-void reference_hull_variants(const int32_t *shape, const int32_t *lists, const double *tables,
-                             const double *asked, double *y, double *out, double *room)
-{
-#if defined(__x86_64__)
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(shape, lists, tables, asked, y, out, room);
-		return;
-	}
-#endif
-	work_hull(shape, lists, tables, asked, y, out, room);
-}
+WITH_FMA_WHERE_THERE_IS(reference_hull_variants, work_hull,
+                        (const int32_t *shape, const int32_t *lists, const double *tables,
+                         const double *asked, double *y, double *out, double *room),
+                        (shape, lists, tables, asked, y, out, room))

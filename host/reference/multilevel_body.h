@@ -23,23 +23,7 @@ INLINED void work_search(const reference_multilevel *plan, const scalar *stencil
 	           gathered);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) static void
-work_with_fma(const reference_multilevel *plan, const scalar *stencils, scalar *arrays,
-              const scalar *settings, scalar *outcome, scalar *scratch)
-{
-	work_search(plan, stencils, arrays, settings, outcome, scratch);
-}
-#endif
-
-void MULTILEVEL_FUNCTION(const reference_multilevel *plan, const scalar *stencils, scalar *arrays,
-                         const scalar *settings, scalar *outcome, scalar *scratch)
-{
-#if defined(__x86_64__)
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(plan, stencils, arrays, settings, outcome, scratch);
-		return;
-	}
-#endif
-	work_search(plan, stencils, arrays, settings, outcome, scratch);
-}
+WITH_FMA_WHERE_THERE_IS(MULTILEVEL_FUNCTION, work_search,
+                        (const reference_multilevel *plan, const scalar *stencils, scalar *arrays,
+                         const scalar *settings, scalar *outcome, scalar *scratch),
+                        (plan, stencils, arrays, settings, outcome, scratch))

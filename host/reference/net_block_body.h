@@ -65,24 +65,7 @@ INLINED void work_search(const reference_net_block *shared, const scalar *tables
 	block_run(&s, &m, &q, shape[NET_BLOCK_ITERATIONS]);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) static void work_with_fma(const reference_net_block *shared,
-                                                              const scalar *tables, scalar *input,
-                                                              const scalar *settings,
-                                                              scalar *outcome, scalar *scratch)
-{
-	work_search(shared, tables, input, settings, outcome, scratch);
-}
-#endif
-
-void NET_BLOCK_FUNCTION(const reference_net_block *shared, const scalar *tables, scalar *input,
-                        const scalar *settings, scalar *outcome, scalar *scratch)
-{
-#if defined(__x86_64__)
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(shared, tables, input, settings, outcome, scratch);
-		return;
-	}
-#endif
-	work_search(shared, tables, input, settings, outcome, scratch);
-}
+WITH_FMA_WHERE_THERE_IS(NET_BLOCK_FUNCTION, work_search,
+                        (const reference_net_block *shared, const scalar *tables, scalar *input,
+                         const scalar *settings, scalar *outcome, scalar *scratch),
+                        (shared, tables, input, settings, outcome, scratch))

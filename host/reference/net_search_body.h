@@ -54,25 +54,9 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays, outcome, gathered);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) static void
-work_with_fma(const reference_net_search *shared, const scalar *tables, const scalar *heights,
-              const scalar *samples, scalar *arrays, const scalar *settings, scalar *outcome,
-              scalar *kept, scalar *scratch)
-{
-	work_search(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
-}
-#endif
-
-void NET_SEARCH_FUNCTION(const reference_net_search *shared, const scalar *tables,
+WITH_FMA_WHERE_THERE_IS(NET_SEARCH_FUNCTION, work_search,
+                        (const reference_net_search *shared, const scalar *tables,
                          const scalar *heights, const scalar *samples, scalar *arrays,
-                         const scalar *settings, scalar *outcome, scalar *kept, scalar *scratch)
-{
-#if defined(__x86_64__)
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
-		return;
-	}
-#endif
-	work_search(shared, tables, heights, samples, arrays, settings, outcome, kept, scratch);
-}
+                         const scalar *settings, scalar *outcome, scalar *kept, scalar *scratch),
+                        (shared, tables, heights, samples, arrays, settings, outcome, kept,
+                         scratch))

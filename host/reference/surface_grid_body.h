@@ -253,24 +253,8 @@ INLINED void work_surface(const reference_surface_grid *shared, const scalar *ta
 	}
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) static void
-work_with_fma(const reference_surface_grid *shared, const scalar *table_v, const scalar *table_u,
-              const scalar *net, scalar least_area, scalar *out, scalar *row)
-{
-	work_surface(shared, table_v, table_u, net, least_area, out, row);
-}
-#endif
-
-void SURFACE_GRID_FUNCTION(const reference_surface_grid *shared, const scalar *table_v,
-                           const scalar *table_u, const scalar *net, scalar least_area, scalar *out,
-                           scalar *scratch)
-{
-#if defined(__x86_64__)
-	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-		work_with_fma(shared, table_v, table_u, net, least_area, out, scratch);
-		return;
-	}
-#endif
-	work_surface(shared, table_v, table_u, net, least_area, out, scratch);
-}
+WITH_FMA_WHERE_THERE_IS(SURFACE_GRID_FUNCTION, work_surface,
+                        (const reference_surface_grid *shared, const scalar *table_v,
+                         const scalar *table_u, const scalar *net, scalar least_area, scalar *out,
+                         scalar *scratch),
+                        (shared, table_v, table_u, net, least_area, out, scratch))
