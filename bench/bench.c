@@ -16,6 +16,8 @@ const bench_entry bench_entries[] = {
 	  bench_search_block },
 	{ "search.lanes", "many block searches: lanes of use, time, memory; iterations of other tables",
 	  bench_search_lanes },
+	{ "search.batch", "searches in batches of one to many, against the plain C path on one core",
+	  bench_search_batch },
 	{ "search.net", "searches over control nets, OpenCL against the plain C path",
 	  bench_search_net },
 	{ "forward.pass", "forward and inverse fairing of many hulls, OpenCL against the plain C path",

@@ -37,6 +37,7 @@ extern const bench_entry bench_entries[];
 
 batten_status bench_search_multilevel(const bench_settings *settings);
 batten_status bench_search_block(const bench_settings *settings);
+batten_status bench_search_batch(const bench_settings *settings);
 batten_status bench_search_lanes(const bench_settings *settings);
 batten_status bench_search_textbook(const bench_settings *settings);
 batten_status bench_sweep_end_to_end(const bench_settings *settings);

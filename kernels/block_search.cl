@@ -22,17 +22,17 @@
 #include "shared/block_lanes.h"
 
 /* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line about its
- * hats, if there are any. inputs, settings, outcomes: as block_memory
- * has them. Group g works searches g * share up to count; turns[g]: how many iterations its lanes went
- * through. room: per group BLOCK_STATE_COUNT arrays, `slots` lines of probes (local size + 2; with hats
- * or rounds lines + 2) and BLOCK_HAT_NUMBERS of hats. sums: BLOCK_SUM_COUNT reals a line. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
+ * hats, if there are any. inputs, settings, outcomes: as block_memory has them. Group g, or work-item g where
+ * searches stand abreast, works searches g * share up to count; turns[g]: how many iterations its lanes went
+ * through. room: BLOCK_STATE_NUMBERS a search, with `slots` lines of probes (local size + 2; with hats or rounds
+ * lines + 2). */
 kernel void block_search(int lines, int length, int hats, int rounds, int slots,
                          int iteration_limit, int count, int share, global const scalar *stencils,
-                         global scalar *inputs, global const scalar *settings,
-                         global scalar *outcomes, global int *turns, STATE real *room,
-                         local real *sums, local real *lanes)
+                         global const scalar *inputs, global const scalar *settings,
+                         global scalar *outcomes, global scalar *ends, int ends_apart,
+                         global int *turns, STATE real *room, local int *vote)
 {
-	const int group = (int)get_group_id(0);
+	const int group = QUEUE_NUMBER;
 	block_state s;
 	s.lines = lines;
 	s.length = length;
@@ -44,19 +44,19 @@ kernel void block_search(int lines, int length, int hats, int rounds, int slots,
 	s.across = stencils;
 	s.along = stencils + lines * STENCIL_SIZE;
 	s.hat_values = s.along + length * STENCIL_SIZE;
-	s.arrays = room;
-#if defined(STATE_IS_GLOBAL)
-	s.arrays += (size_t)group *
-	            BLOCK_STATE_NUMBERS((size_t)lines, (size_t)length, (size_t)hats, (size_t)slots);
-#endif
+	s.arrays = OWN_STATE(
+		room, BLOCK_STATE_NUMBERS((size_t)lines, (size_t)length, (size_t)hats, (size_t)slots));
 	s.ring = s.arrays + BLOCK_STATE_COUNT * s.nodes;
 	s.hat_rows = s.ring + BLOCK_PROBE_COUNT * (slots * length);
-	s.sums = sums;
+	s.vote = vote;
+	s.sums = s.hat_rows + BLOCK_HAT_NUMBERS(lines, hats);
 	block_memory m;
 	m.inputs = inputs;
 	m.settings = settings;
 	m.outcomes = outcomes;
-	m.lanes = lanes;
+	m.ends = ends;
+	m.ends_apart = ends_apart;
+	m.lanes = s.sums + BLOCK_SUM_COUNT * lines;
 	block_queue q;
 	q.next = group * share;
 	q.end = min(q.next + share, count);

@@ -17,24 +17,23 @@
 
 /* stencils: STENCIL_SIZE a station, then a waterline. levels: SEARCH_LEVEL_SIZE numbers each. centres:
  * station and waterline of each direction. arrays [group][SEARCH_ARRAY_COUNT][nodes], settings
- * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. room: SEARCH_STATE_COUNT * nodes of
- * real a group. lines: a real a waterline. gathered: two reals a work-item. */
+ * [group][SEARCH_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], room [group][SEARCH_STATE_NUMBERS], all
+ * of real. */
 kernel void multilevel(int stations, int waterlines, int level_count, int iteration_limit,
                        global const int *levels, global const int *centres,
                        global const scalar *stencils, global real *arrays,
                        global const real *settings, global real *outcome, STATE real *room,
-                       local real *lines, local real *gathered)
+                       local int *vote)
 {
-	const size_t group = get_group_id(0);
 	const size_t nodes = (size_t)(stations + 2) * (size_t)(waterlines + 2);
-#if defined(STATE_IS_GLOBAL)
-	room += group * SEARCH_STATE_COUNT * nodes;
-#endif
-	arrays += group * SEARCH_ARRAY_COUNT * nodes;
-	settings += group * SEARCH_SETTING_COUNT;
-	search_state s = state_of(stations, waterlines, stencils, arrays, settings, room, lines);
+	global stored *own = OWN_GLOBAL(arrays, SEARCH_ARRAY_COUNT * nodes);
+	global const stored *set = OWN_GLOBAL(settings, SEARCH_SETTING_COUNT);
+	global stored *told = OWN_GLOBAL(outcome, SEARCH_OUTCOME_COUNT);
+	search_state s = state_of(
+		stations, waterlines, stencils, own, set,
+		OWN_STATE(room, SEARCH_STATE_NUMBERS(nodes, (size_t)waterlines, (size_t)WORK_ITEMS)));
+	s.vote = vote;
 	search_levels(&s, level_count, levels, centres);
 	search_slopes_clear(&s);
-	search_run(&s, iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes,
-	           outcome + group * SEARCH_OUTCOME_COUNT, gathered);
+	search_run(&s, iteration_limit, set, own + SEARCH_ARRAY_Y * nodes, told);
 }

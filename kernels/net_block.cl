@@ -18,20 +18,23 @@
 /* The state of a net is more than local memory has. */
 #undef STATE
 #define STATE global
+#undef STATE_IS_GLOBAL
+#define STATE_IS_GLOBAL
 #include "shared/dialect.h"
 #include "shared/net_block_tables.h"
 /* The course last: it calls these. */
 #include "shared/block_lanes.h"
 
 /* shape: NET_BLOCK_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE a sample along u, then along v. inputs, settings, outcomes: as block_memory has them. Group g works searches
- * g * share up to count; turns[g]: how many iterations its lanes went through. room: NET_BLOCK_STATE_NUMBERS a group.
- * sums: NET_BLOCK_SUM_NUMBERS. lanes: BLOCK_OUTCOME_COUNT + 1 reals. */
+ * g * share up to count, and so does work-item g where searches stand abreast; turns[g]: how many iterations its lanes went
+ * through. room: NET_BLOCK_STATE_NUMBERS a search. */
 kernel void net_block(global const int *shape, global const int *first_u, global const int *first_v,
                       global const int *follower, global const scalar *tables,
-                      global scalar *inputs, global const scalar *settings, global scalar *outcomes,
-                      global int *turns, global real *room, local real *sums, local real *lanes)
+                      global const scalar *inputs, global const scalar *settings,
+                      global scalar *outcomes, global scalar *ends, global int *turns,
+                      global real *room, local int *vote)
 {
-	const int group = (int)get_group_id(0);
+	const int group = QUEUE_NUMBER;
 	block_state s;
 	s.lines = shape[NET_BLOCK_COLUMNS];
 	s.length = shape[NET_BLOCK_ROWS];
@@ -46,20 +49,24 @@ kernel void net_block(global const int *shape, global const int *first_u, global
 	s.follower = follower;
 	s.table_u = tables;
 	s.table_v = s.table_u + s.count_u * NET_TABLE_SIZE(NET_ORDER_U);
-	s.arrays = room + (size_t)group * NET_BLOCK_STATE_NUMBERS((size_t)s.lines, s.length, s.count_u,
-	                                                          s.count_v, s.band, s.slots,
-	                                                          NET_ORDER_U, NET_POINTS_U);
+	s.arrays = OWN_STATE(room,
+	                     NET_BLOCK_STATE_NUMBERS((size_t)s.lines, s.length, s.count_u, s.count_v,
+	                                             s.band, s.slots, NET_ORDER_U, NET_POINTS_U));
 	s.rows = s.arrays + BLOCK_STATE_COUNT * s.nodes;
 	s.bottom = s.rows + s.band * s.nodes;
 	s.samples = s.bottom + s.nodes;
 	s.work = s.samples + NET_BLOCK_SAMPLE * (s.count_u * s.count_v);
-	s.sums = sums;
-	s.terms = sums + BLOCK_SUM_COUNT * s.lines;
+	s.vote = vote;
+	s.sums = s.work +
+	         s.slots * NET_BLOCK_LINE_NUMBERS(s.lines, s.count_u, NET_ORDER_U, NET_POINTS_U);
+	s.terms = s.sums + BLOCK_SUM_COUNT * s.lines;
 	block_memory m;
 	m.inputs = inputs;
 	m.settings = settings;
 	m.outcomes = outcomes;
-	m.lanes = lanes;
+	m.ends = ends;
+	m.ends_apart = s.nodes;
+	m.lanes = s.terms + s.count_v;
 	block_queue q;
 	q.next = group * shape[NET_BLOCK_SHARE];
 	q.end = min(q.next + shape[NET_BLOCK_SHARE], shape[NET_BLOCK_COUNT]);

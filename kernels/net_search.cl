@@ -25,18 +25,15 @@
 
 /* shape: NET_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE numbers a sample along u, then along v. samples
  * [group][line][sample][NET_SAMPLE_SIZE], arrays [group][NET_ARRAY_COUNT][poles], settings
- * [group][NET_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], all of real. kept
- * [group][line][sample][NET_KEPT_SIZE], like the samples too much for local memory. room: NET_STATE_COUNT nets
- * of real a group. sums: a real a line. gathered: two reals a work-item. */
+ * [group][NET_SETTING_COUNT], outcome [group][SEARCH_OUTCOME_COUNT], kept [group][line][sample][NET_KEPT_SIZE], like
+ * the samples too much for local memory, room [group][NET_STATE_NUMBERS], all of real. */
 kernel void net_search(global const int *shape, global const int *first_u,
                        global const int *first_v, global const int *colours,
                        global const int *directions, global const int *members,
                        global const scalar *heights, global const scalar *tables,
                        global const real *samples, global real *arrays, global const real *settings,
-                       global real *outcome, global real *kept, STATE real *room, local real *sums,
-                       local real *gathered)
+                       global real *outcome, global real *kept, STATE real *room, local int *vote)
 {
-	const size_t group = get_group_id(0);
 	search_state s;
 	s.columns = shape[NET_SHAPE_COLUMNS];
 	s.nodes = s.columns * shape[NET_SHAPE_ROWS];
@@ -45,18 +42,18 @@ kernel void net_search(global const int *shape, global const int *first_u,
 	s.colour_count = shape[NET_SHAPE_COLOURS];
 	s.wide_colours = 0;
 	s.wide_probes = SPREAD(LITERAL(0.0));
-#if defined(STATE_IS_GLOBAL)
-	room += group * NET_STATE_COUNT * (size_t)s.nodes;
-#endif
-	arrays += group * NET_ARRAY_COUNT * (size_t)s.nodes;
-	settings += group * NET_SETTING_COUNT;
-	s.y = room;
-	s.base = room + s.nodes;
-	s.trial = room + 2 * s.nodes;
+	global stored *own = OWN_GLOBAL(arrays, NET_ARRAY_COUNT * s.nodes);
+	global const stored *set = OWN_GLOBAL(settings, NET_SETTING_COUNT);
+	s.y = OWN_STATE(room, NET_STATE_NUMBERS(s.nodes, s.lines, WORK_ITEMS));
+	s.base = s.y + s.nodes;
+	s.trial = s.y + 2 * s.nodes;
 	s.moves = s.trial;
-	s.ways = room + 4 * s.nodes;
-	s.lower = arrays + NET_ARRAY_LOWER * s.nodes;
-	s.upper = arrays + NET_ARRAY_UPPER * s.nodes;
+	s.ways = s.y + 4 * s.nodes;
+	s.vote = vote;
+	s.sums = s.y + NET_STATE_COUNT * s.nodes;
+	s.gathered = s.sums + s.lines;
+	s.lower = own + NET_ARRAY_LOWER * s.nodes;
+	s.upper = own + NET_ARRAY_UPPER * s.nodes;
 	s.first_u = first_u;
 	s.first_v = first_v;
 	s.table_u = tables;
@@ -65,10 +62,9 @@ kernel void net_search(global const int *shape, global const int *first_u,
 	s.directions = directions;
 	s.members = members;
 	s.heights = heights;
-	s.samples = samples + group * (size_t)(s.lines * s.length) * (size_t)NET_SAMPLE_NUMBERS;
-	s.kept = kept + group * (size_t)(s.lines * s.length) * (size_t)NET_KEPT_NUMBERS;
-	s.sums = sums;
-	s.rounding = settings[NET_SETTING_ROUNDING];
-	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays,
-	           outcome + group * SEARCH_OUTCOME_COUNT, gathered);
+	s.samples = OWN_GLOBAL(samples, (size_t)(s.lines * s.length) * NET_SAMPLE_NUMBERS);
+	s.kept = OWN_GLOBAL(kept, (size_t)(s.lines * s.length) * NET_KEPT_NUMBERS);
+	s.rounding = AT(set[NET_SETTING_ROUNDING]);
+	search_run(&s, shape[NET_SHAPE_ITERATIONS], set, own,
+	           OWN_GLOBAL(outcome, SEARCH_OUTCOME_COUNT));
 }

@@ -10,27 +10,27 @@
 #include <string.h>
 
 /* Most bytes of packed searches in one launch, searches a lane of it, and groups a compute unit: lanes
- * that come free take the next search, so the more of them, the less do lanes stand idle. */
+ * that come free take the next search, so the more of them, the less do lanes stand idle. A GPU has as many groups
+ * at work as it takes to wait for memory side by side (bench/README.md, what was tried). */
 enum { BLOCK_BYTES = 8 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
+enum { GPU_BYTES = 160 << 20, GPU_GROUPS_A_UNIT = 8, GPU_ABREAST = 4, GPU_TOGETHER = 16 };
 
 /* Lines of probes that are kept: all where there are hats or rounds. */
-static size_t slots_of(const search_plan *plan, size_t work_group, block_course course)
+static size_t slots_of(const search_plan *plan, const batch_engine_recipe *recipe,
+                       block_course course)
 {
 	const bool all = course.hats > 0 || course.rounds > 0;
-	return (all ? block_lines_of(plan).lines : work_group) + 2;
+	const size_t together = batch_engine_together(recipe);
+	return (all ? block_lines_of(plan).lines : together) + 2;
 }
 
-/* Numbers of a group's state in one lane. */
-static size_t state_numbers(const search_plan *plan, size_t work_group, block_course course)
+/* Numbers of a search's state. */
+static size_t state_numbers(const search_plan *plan, const batch_engine_recipe *recipe,
+                            block_course course)
 {
 	const block_lines_shape shape = block_lines_of(plan);
 	return BLOCK_STATE_NUMBERS(shape.lines, shape.length, course.hats,
-	                           slots_of(plan, work_group, course));
-}
-
-static size_t local_numbers(const search_plan *plan)
-{
-	return BLOCK_SUM_COUNT * block_lines_of(plan).lines + BLOCK_OUTCOME_COUNT + 1;
+	                           slots_of(plan, recipe, course));
 }
 
 static batten_status run_selftest(batch_engine *engine, const void *plan)
@@ -47,11 +47,11 @@ batten_status block_engine_open(const search_plan *plan, size_t index, const bat
 		                           .precision = plan->options.precision,
 		                           .lanes = plan->options.lanes,
 		                           .work_group = plan->options.work_group };
-	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	batch_engine_shape_abreast(device, GPU_ABREAST, GPU_TOGETHER, &recipe);
 	const block_course most = { .hats = block_hat_count(plan), .rounds = 1 };
-	const size_t numbers = state_numbers(plan, recipe.work_group, most) + local_numbers(plan);
-	const bool global = numbers * recipe.lanes * batch_engine_number_size(recipe.precision) >
-	                    device->local_memory_bytes;
+	const size_t bytes = state_numbers(plan, &recipe, most) * recipe.lanes *
+	                     batch_engine_number_size(recipe.precision);
+	const bool global = recipe.abreast || bytes > device->local_memory_bytes;
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DBLOCK_ANALYTIC=%d",
 	               batch_engine_state_option(global), plan->options.analytic_slopes);
 	return batch_engine_open(plan->context, &recipe, run_selftest, plan, out, result);
@@ -61,7 +61,7 @@ static size_t units_of(const batch_engine *engine)
 {
 	const batten_device *device = batch_engine_device(engine);
 	const size_t units = device->compute_units ? device->compute_units : 1;
-	return units * (device->is_cpu ? GROUPS_A_UNIT : 8 * GROUPS_A_UNIT);
+	return units * (device->is_cpu ? GROUPS_A_UNIT : GPU_GROUPS_A_UNIT);
 }
 
 size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
@@ -70,7 +70,8 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 	const size_t lanes = engine->recipe.lanes;
 	const size_t search_bytes = BLOCK_INPUT_COUNT * shape.lines * shape.length *
 	                            search_scalar_size(plan);
-	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
+	const size_t limit = batch_engine_launch_bytes(
+		engine, batch_engine_device(engine)->is_cpu ? BLOCK_BYTES : GPU_BYTES);
 	size_t searches = units_of(engine) * lanes * SEARCHES_A_LANE;
 	if (searches > limit / search_bytes)
 		searches = limit / search_bytes;
@@ -80,47 +81,54 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 /* Host memory and device buffers of one launch. */
 typedef struct block {
 	const search_plan *plan;
-	size_t count, share, groups;
+	size_t count;
+	batch_engine_queues queues;
 	block_course course;
 	size_t number, nodes; /* bytes of a number; numbers of an array */
 	size_t input_bytes;
-	bool direct; /* the device works in the host's memory */
+	bool direct; /* the device works in the host's memory, where ends take the place of starts */
 	void *stencils, *inputs, *settings, *outcomes;
+	void *ends; /* of searches, ends_apart numbers one from the next */
+	size_t ends_apart;
 	int32_t *turns;
-	device_buffer *stencils_on, *inputs_on, *settings_on, *outcomes_on, *turns_on, *state_on;
+	device_buffer *stencils_on, *inputs_on, *settings_on, *outcomes_on, *ends_on, *turns_on,
+		*state_on;
 } block;
 
 static void block_release(batch_engine *engine, block *b)
 {
-	device_buffer *buffers[] = { b->stencils_on, b->inputs_on, b->settings_on,
-		                         b->outcomes_on, b->turns_on,  b->state_on };
+	device_buffer *buffers[] = { b->stencils_on, b->inputs_on, b->settings_on, b->outcomes_on,
+		                         b->ends_on,     b->turns_on,  b->state_on };
 	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
 		device_buffer_destroy(buffers[i]);
-	void *memory[] = { b->stencils, b->settings, b->outcomes, b->turns };
+	void *memory[] = { b->stencils, b->settings, b->outcomes, b->turns,
+		               b->direct ? NULL : b->ends };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(engine->context, memory[i]);
 }
 
-/* Every group gets the same number of searches, whole lanes of them. */
 static batten_status block_allocate(batch_engine *engine, block *b)
 {
 	batten_context *context = engine->context;
 	const block_lines_shape shape = block_lines_of(b->plan);
-	const size_t lanes = engine->recipe.lanes;
-	const size_t units = units_of(engine);
 	b->number = search_scalar_size(b->plan);
 	b->nodes = shape.lines * shape.length;
-	b->share = ((b->count + units - 1) / units + lanes - 1) / lanes * lanes;
-	b->groups = (b->count + b->share - 1) / b->share;
+	const size_t state = state_numbers(b->plan, &engine->recipe, b->course) * engine->recipe.lanes *
+	                     b->number;
+	b->queues = batch_engine_queues_of(&engine->recipe, b->count,
+	                                   batch_engine_groups_most(engine, units_of(engine), state));
 	b->stencils = batten_allocate(context, block_stencil_count(b->plan), b->number);
 	b->input_bytes = BLOCK_INPUT_COUNT * b->nodes * b->number;
 	b->direct = batch_engine_device(engine)->is_cpu && !engine->copies;
 	b->inputs = batch_engine_memory(engine, b->count, b->input_bytes);
+	b->ends_apart = b->direct ? BLOCK_INPUT_COUNT * b->nodes : b->nodes;
+	b->ends = b->direct ? b->inputs : batten_allocate(context, b->count, b->nodes * b->number);
 	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
 	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);
-	b->turns = batten_allocate(context, b->groups, sizeof *b->turns);
-	return b->stencils && b->inputs && b->settings && b->outcomes && b->turns ? BATTEN_OK
-	                                                                          : BATTEN_MEMORY;
+	b->turns = batten_allocate(context, b->queues.count, sizeof *b->turns);
+	return b->stencils && b->inputs && b->ends && b->settings && b->outcomes && b->turns
+	           ? BATTEN_OK
+	           : BATTEN_MEMORY;
 }
 
 static batten_status block_fill(const batten_search_problem *problems, const size_t *which,
@@ -139,14 +147,15 @@ static bool is_global(const batch_engine *engine)
 
 static batten_status block_upload(batch_engine *engine, block *b)
 {
-	const size_t state = state_numbers(b->plan, engine->recipe.work_group, b->course) *
-	                     engine->recipe.lanes * b->number * b->groups;
+	const size_t state = state_numbers(b->plan, &engine->recipe, b->course) * engine->recipe.lanes *
+	                     b->number * b->queues.groups;
 	const batch_engine_upload uploads[] = {
 		{ &b->stencils_on, block_stencil_count(b->plan) * b->number, b->stencils },
 		{ &b->inputs_on, b->direct ? 0 : b->count * b->input_bytes, b->inputs },
 		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
 		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
-		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
+		{ &b->ends_on, b->direct ? 0 : b->count * b->nodes * b->number, NULL },
+		{ &b->turns_on, b->queues.count * sizeof *b->turns, NULL },
 		{ &b->state_on, is_global(engine) ? state : 0, NULL },
 	};
 	batten_status status = batch_engine_upload_all(engine, uploads,
@@ -161,15 +170,15 @@ static batten_status block_launch(batch_engine *engine, block *b)
 {
 	const block_lines_shape shape = block_lines_of(b->plan);
 	const size_t lane_bytes = engine->recipe.lanes * b->number;
-	const size_t group = engine->recipe.work_group;
 	const int32_t numbers[] = { (int32_t)shape.lines,
 		                        (int32_t)shape.length,
 		                        (int32_t)b->course.hats,
 		                        (int32_t)b->course.rounds,
-		                        (int32_t)slots_of(b->plan, group, b->course),
+		                        (int32_t)slots_of(b->plan, &engine->recipe, b->course),
 		                        (int32_t)b->plan->options.iteration_limit,
 		                        (int32_t)b->count,
-		                        (int32_t)b->share };
+		                        (int32_t)b->queues.share,
+		                        (int32_t)b->ends_apart };
 	const device_argument arguments[] = {
 		{ .size = sizeof(int32_t), .value = &numbers[0] },
 		{ .size = sizeof(int32_t), .value = &numbers[1] },
@@ -183,22 +192,26 @@ static batten_status block_launch(batch_engine *engine, block *b)
 		{ .buffer = b->inputs_on },
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcomes_on },
+		{ .buffer = b->direct ? b->inputs_on : b->ends_on },
+		{ .size = sizeof(int32_t), .value = &numbers[8] },
 		{ .buffer = b->turns_on },
 		{ .buffer = b->state_on,
-		  .size = b->state_on ? 0 : state_numbers(b->plan, group, b->course) * lane_bytes },
-		{ .size = BLOCK_SUM_COUNT * shape.lines * lane_bytes },
-		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
+		  .size = b->state_on ? 0
+		                      : state_numbers(b->plan, &engine->recipe, b->course) * lane_bytes },
+		{ .size = sizeof(int32_t) },
 	};
 	batten_status status = device_launch(engine->session, engine->kernel, arguments,
-	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
+	                                     sizeof arguments / sizeof arguments[0], b->queues.groups,
+	                                     engine->recipe.work_group);
 	if (status == BATTEN_OK)
-		status = b->direct ? device_buffers_settle(&b->inputs_on, 1)
-		                   : device_buffer_read(b->inputs_on, b->count * b->input_bytes, b->inputs);
+		status = b->direct
+		             ? device_buffers_settle(&b->inputs_on, 1)
+		             : device_buffer_read(b->ends_on, b->count * b->nodes * b->number, b->ends);
 	if (status == BATTEN_OK)
 		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,
 		                            b->outcomes);
 	if (status == BATTEN_OK)
-		status = device_buffer_read(b->turns_on, b->groups * sizeof *b->turns, b->turns);
+		status = device_buffer_read(b->turns_on, b->queues.count * sizeof *b->turns, b->turns);
 	return status;
 }
 
@@ -227,11 +240,11 @@ static batten_status run_alike(batch_engine *engine, const search_plan *plan,
 			status = batch_engine_fail(engine, status);
 	}
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
-		block_unpack(plan, &problems[which[i]], (char *)b.inputs + i * b.input_bytes,
+		block_unpack(plan, &problems[which[i]], (char *)b.ends + i * b.ends_apart * b.number,
 		             (char *)b.outcomes + i * BLOCK_OUTCOME_COUNT * b.number,
 		             y_m + which[i] * b.nodes, &results[which[i]]);
-	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)
-		*lane_turns += (uint64_t)b.turns[g] * engine->recipe.lanes;
+	if (status == BATTEN_OK && lane_turns)
+		*lane_turns += batch_engine_lane_turns(&engine->recipe, &b.queues, b.turns);
 	block_release(engine, &b);
 	return status;
 }

@@ -21,11 +21,78 @@ void batch_engine_shape_choose(const batten_device *device, batten_precision pre
 		*work_group = device->max_work_group;
 }
 
+void batch_engine_shape_abreast(const batten_device *device, unsigned abreast, unsigned together,
+                                batch_engine_recipe *recipe)
+{
+	if (!device->is_cpu && recipe->lanes == 0 && recipe->work_group == 0) {
+		while (together > 1 && device->max_work_group > 0 &&
+		       abreast * together > device->max_work_group)
+			together /= 2;
+		recipe->lanes = abreast;
+		recipe->work_group = abreast * together;
+	}
+	batch_engine_shape_choose(device, recipe->precision, &recipe->lanes, &recipe->work_group);
+	/* Vectors gain a GPU nothing, and NVIDIA's compiler crashes on some of these kernels with them. */
+	if (!device->is_cpu && recipe->work_group % recipe->lanes != 0)
+		recipe->work_group = recipe->lanes;
+	recipe->abreast = batch_engine_stands_abreast(recipe->lanes, recipe->work_group);
+}
+
+size_t batch_engine_groups_most(const batch_engine *e, size_t groups, size_t group_bytes)
+{
+	const batten_device *device = batch_engine_device(e);
+	if (device->is_cpu || group_bytes == 0)
+		return groups;
+	uint64_t most = device->global_memory_bytes / (4 * HANDS_MOST);
+	if (device->max_allocation_bytes > 0 && most > device->max_allocation_bytes)
+		most = device->max_allocation_bytes;
+	if (groups > most / group_bytes)
+		groups = (size_t)(most / group_bytes);
+	return groups > 0 ? groups : 1;
+}
+
+bool batch_engine_stands_abreast(unsigned lanes, unsigned work_group)
+{
+	return lanes > 1 && work_group % lanes == 0;
+}
+
+size_t batch_engine_together(const batch_engine_recipe *recipe)
+{
+	return recipe->abreast ? recipe->work_group / recipe->lanes : recipe->work_group;
+}
+
+batch_engine_queues batch_engine_queues_of(const batch_engine_recipe *recipe, size_t count,
+                                           size_t groups_most)
+{
+	const size_t queues_a_group = recipe->abreast ? recipe->lanes : 1;
+	const size_t lanes = recipe->abreast ? 1 : recipe->lanes;
+	const size_t most = groups_most * queues_a_group;
+	const size_t share = ((count + most - 1) / most + lanes - 1) / lanes * lanes;
+	const size_t busy = (count + share - 1) / share;
+	const size_t groups = (busy + queues_a_group - 1) / queues_a_group;
+	return (batch_engine_queues){ share, groups * queues_a_group, groups };
+}
+
+uint64_t batch_engine_lane_turns(const batch_engine_recipe *recipe,
+                                 const batch_engine_queues *queues, const int32_t *turns)
+{
+	const size_t queues_a_group = queues->count / queues->groups;
+	uint64_t sum = 0;
+	for (size_t g = 0; g < queues->groups; g++) {
+		int32_t longest = 0;
+		for (size_t q = g * queues_a_group; q < (g + 1) * queues_a_group; q++)
+			if (turns[q] > longest)
+				longest = turns[q];
+		sum += (uint64_t)longest * recipe->lanes;
+	}
+	return sum;
+}
+
 static bool same_recipe(const batch_engine_recipe *a, const batch_engine_recipe *b)
 {
 	return a->device == b->device && a->precision == b->precision && a->lanes == b->lanes &&
-	       a->work_group == b->work_group && strcmp(a->kernel, b->kernel) == 0 &&
-	       strcmp(a->options, b->options) == 0;
+	       a->work_group == b->work_group && a->abreast == b->abreast &&
+	       strcmp(a->kernel, b->kernel) == 0 && strcmp(a->options, b->options) == 0;
 }
 
 batch_engine *batch_engine_find(const batten_context *context, const batch_engine_recipe *recipe)
@@ -40,10 +107,15 @@ static batten_status build(batch_engine *e)
 {
 	const batch_engine_recipe *recipe = &e->recipe;
 	const batten_device *device = batch_engine_device(e);
-	char options[256];
-	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d -DBATTEN_LANES=%u %s%s%s",
-	               recipe->precision == BATTEN_F64, recipe->lanes,
-	               recipe->work_group == 1 ? "-DBATTEN_ALONE " : "", recipe->options,
+	char shape[80], options[384];
+	if (recipe->abreast)
+		(void)snprintf(shape, sizeof shape, "-DBATTEN_LANES=1 -DBATTEN_ABREAST=%u", recipe->lanes);
+	else
+		(void)snprintf(shape, sizeof shape, "-DBATTEN_LANES=%u", recipe->lanes);
+	(void)snprintf(options, sizeof options, "-DBATTEN_DOUBLE=%d %s%s%s %s%s",
+	               recipe->precision == BATTEN_F64, shape,
+	               batch_engine_together(recipe) == 1 ? " -DBATTEN_ALONE" : "",
+	               device->is_cpu ? " -DBATTEN_PREFETCH" : "", recipe->options,
 	               recipe->precision == BATTEN_F32 && device->has_correct_f32
 	                   ? " -cl-fp32-correctly-rounded-divide-sqrt"
 	                   : "");
@@ -76,6 +148,8 @@ batten_status batch_engine_start(batch_engine *e, batten_context *context,
 {
 	e->context = context;
 	e->recipe = *recipe;
+	if (e->size == 0)
+		e->size = sizeof *e;
 	e->test = (batten_selftest){ .precision = recipe->precision, .result = BATTEN_SELFTEST_FAILED };
 	(void)snprintf(e->test.kernel, sizeof e->test.kernel, "%s", recipe->kernel);
 	batten_status status = device_session_open(context, recipe->device, &e->session);
@@ -187,10 +261,39 @@ size_t batch_engine_launch_bytes(const batch_engine *e, size_t most)
 	return host > 0 && most > host ? host : most;
 }
 
+batten_status batch_engine_hand(batch_engine *e, size_t number, batch_engine **out)
+{
+	while (e->hand_count < number) {
+		batch_engine *hand = batten_allocate(e->context, 1, e->size);
+		if (!hand)
+			return BATTEN_MEMORY;
+		memcpy(hand, e, e->size);
+		hand->session = NULL;
+		hand->program = NULL;
+		hand->kernel = NULL;
+		hand->memory = NULL;
+		hand->memory_bytes = 0;
+		hand->hand_count = 0;
+		batten_status status = device_session_branch(e->session, &hand->session);
+		if (status == BATTEN_OK)
+			status = device_kernel_branch(hand->session, e->program, e->recipe.kernel,
+			                              &hand->kernel);
+		if (status != BATTEN_OK) {
+			batch_engine_destroy(hand);
+			return status;
+		}
+		e->hands[e->hand_count++] = hand;
+	}
+	*out = e->hands[number - 1];
+	return BATTEN_OK;
+}
+
 void batch_engine_destroy(batch_engine *e)
 {
 	if (!e)
 		return;
+	while (e->hand_count > 0)
+		batch_engine_destroy(e->hands[--e->hand_count]);
 	device_kernel_destroy(e->kernel);
 	device_program_destroy(e->program);
 	device_session_close(e->session);

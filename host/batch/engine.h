@@ -20,8 +20,12 @@ typedef struct batch_engine_recipe {
 	size_t device;
 	batten_precision precision;
 	unsigned lanes, work_group;
+	bool abreast;      /* each work-item works one of the lanes by itself (dialect.h) */
 	char options[160]; /* of the compiler, beyond precision and lanes */
 } batch_engine_recipe;
+
+/* Threads that keep a device at work which is no CPU: while one's launch runs, others pack and unpack. */
+enum { HANDS_MOST = 8 };
 
 typedef struct batch_engine {
 	batten_context *context;
@@ -34,6 +38,9 @@ typedef struct batch_engine {
 	size_t memory_bytes;
 	bool copies; /* memory is copied, though the device could work in the host's: as others do */
 	struct batch_engine *next;
+	struct batch_engine *hands[HANDS_MOST - 1]; /* more of it, each for a thread */
+	size_t hand_count;
+	size_t size; /* bytes of the whole, for engines that have something of their own */
 } batch_engine;
 
 /* Bytes of a number. */
@@ -42,6 +49,32 @@ size_t batch_engine_number_size(batten_precision precision);
 /* The lanes and work-items that suit a device; those given where they are not 0. */
 void batch_engine_shape_choose(const batten_device *device, batten_precision precision,
                                unsigned *lanes, unsigned *work_group);
+
+/* The same of kernels that know searches abreast: on a device that is no CPU so many, each shared by `together`
+ * work-items, or fewer where a group cannot have them all; elsewhere where work-items are a multiple of more lanes
+ * than one. */
+void batch_engine_shape_abreast(const batten_device *device, unsigned abreast, unsigned together,
+                                batch_engine_recipe *recipe);
+bool batch_engine_stands_abreast(unsigned lanes, unsigned work_group);
+
+/* Of so many groups those whose state, group_bytes each, fits a GPU beside that of others at work. */
+size_t batch_engine_groups_most(const batch_engine *e, size_t groups, size_t group_bytes);
+
+/* Work-items that share a search. */
+size_t batch_engine_together(const batch_engine_recipe *recipe);
+
+/* How searches are shared out: each queue gets `share` of them; a group has one queue, or abreast one a work-item. */
+typedef struct batch_engine_queues {
+	size_t share, count, groups;
+} batch_engine_queues;
+
+/* count searches over at most so many groups. */
+batch_engine_queues batch_engine_queues_of(const batch_engine_recipe *recipe, size_t count,
+                                           size_t groups_most);
+
+/* Turns of all lanes, those included that stood idle while others of their group worked; turns: of each queue. */
+uint64_t batch_engine_lane_turns(const batch_engine_recipe *recipe,
+                                 const batch_engine_queues *queues, const int32_t *turns);
 
 /* The context's engine of that recipe, or NULL. */
 batch_engine *batch_engine_find(const batten_context *context, const batch_engine_recipe *recipe);
@@ -91,6 +124,10 @@ const char *batch_engine_state_option(bool global);
 
 /* Most bytes of one launch: most, or what the device or the context allots at a time. */
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most);
+
+/* The engine for one more thread, number 1 .. HANDS_MOST - 1: of the same program, with a queue of its own; it ends with
+ * the one it is of. Errors: DEVICE, MEMORY. */
+batten_status batch_engine_hand(batch_engine *e, size_t number, batch_engine **out);
 
 void batch_engine_destroy(batch_engine *e); /* NULL is allowed; releases e itself */
 

@@ -8,7 +8,9 @@
 
 /* Searches a lane of a launch and groups a compute unit: lanes that come free take the next search, so the more of
  * them, the less do lanes stand idle. A CPU has one group a unit, whose state fills its caches. */
-enum { SEARCHES_A_LANE = 32, GROUPS_A_GPU_UNIT = 8 };
+enum { SEARCHES_A_LANE = 32, GPU_GROUPS_A_UNIT = 2 };
+/* Of a GPU, by measurement (bench/README.md, what was tried). */
+enum { GPU_ABREAST = 16, GPU_TOGETHER = 16 };
 
 static batten_status run_selftest(batch_engine *engine, const void *plan)
 {
@@ -28,7 +30,7 @@ batten_status net_block_engine_open(const net_plan *plan, size_t index, const ba
 	const batten_status status = net_block_shape_of(plan, &shape);
 	if (status != BATTEN_OK)
 		return status;
-	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	batch_engine_shape_abreast(device, GPU_ABREAST, GPU_TOGETHER, &recipe);
 	(void)snprintf(recipe.options, sizeof recipe.options,
 	               "-DNET_FAIRNESS=%d -DNET_ORDER_U=%zu -DNET_ORDER_V=%zu -DNET_POINTS_U=%zu "
 	               "-DNET_POINTS_V=%zu",
@@ -41,7 +43,7 @@ static size_t units_of(const batch_engine *engine)
 {
 	const batten_device *device = batch_engine_device(engine);
 	const size_t units = device->compute_units ? device->compute_units : 1;
-	return device->is_cpu ? units : GROUPS_A_GPU_UNIT * units;
+	return device->is_cpu ? units : GPU_GROUPS_A_UNIT * units;
 }
 
 size_t net_block_engine_block(const batch_engine *engine)
@@ -53,54 +55,55 @@ size_t net_block_engine_block(const batch_engine *engine)
 typedef struct block {
 	const net_plan *plan;
 	net_block_shape shape;
-	size_t count, share, groups;
+	size_t count;
+	batch_engine_queues queues;
 	size_t number, input_bytes; /* of a number; of a search */
 	bool alone;
 	int32_t numbers[NET_BLOCK_SHAPE_SIZE];
-	void *tables, *inputs, *settings, *outcomes;
+	void *tables, *inputs, *settings, *outcomes, *ends;
 	int32_t *followers, *turns;
 	net_room *rooms;
 	device_buffer *shape_on, *first_u_on, *first_v_on, *followers_on, *tables_on, *inputs_on,
-		*settings_on, *outcomes_on, *turns_on, *state_on;
+		*settings_on, *outcomes_on, *ends_on, *turns_on, *state_on;
 } block;
 
 static void block_release(batch_engine *engine, block *b)
 {
 	device_buffer *buffers[] = { b->shape_on,  b->first_u_on, b->first_v_on,  b->followers_on,
 		                         b->tables_on, b->inputs_on,  b->settings_on, b->outcomes_on,
-		                         b->turns_on,  b->state_on };
+		                         b->ends_on,   b->turns_on,   b->state_on };
 	for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++)
 		device_buffer_destroy(buffers[i]);
-	void *memory[] = { b->tables, b->inputs,    b->settings, b->outcomes,
-		               b->turns,  b->followers, b->rooms };
+	void *memory[] = { b->tables, b->inputs, b->settings,  b->outcomes,
+		               b->ends,   b->turns,  b->followers, b->rooms };
 	for (size_t i = 0; i < sizeof memory / sizeof memory[0]; i++)
 		batten_release(engine->context, memory[i]);
 }
 
-/* Every group gets the same number of searches, whole lanes of them. */
 static batten_status block_allocate(const batch_engine *engine, block *b)
 {
 	batten_context *context = engine->context;
-	const size_t lanes = engine->recipe.lanes;
-	const size_t units = units_of(engine);
 	const size_t poles = net_plan_poles(b->plan);
 	const batten_status status = net_block_shape_of(b->plan, &b->shape);
 	if (status != BATTEN_OK)
 		return status;
 	b->number = batch_engine_number_size(engine->recipe.precision);
-	b->alone = engine->recipe.work_group == 1;
-	b->share = ((b->count + units - 1) / units + lanes - 1) / lanes * lanes;
-	b->groups = (b->count + b->share - 1) / b->share;
+	b->alone = batch_engine_together(&engine->recipe) == 1;
+	const size_t state = net_block_state_numbers(&b->shape, b->alone) * engine->recipe.lanes *
+	                     b->number;
+	b->queues = batch_engine_queues_of(&engine->recipe, b->count,
+	                                   batch_engine_groups_most(engine, units_of(engine), state));
 	b->input_bytes = BLOCK_INPUT_COUNT * poles * b->number;
 	b->tables = batten_allocate(context, net_block_table_count(&b->shape), b->number);
 	b->inputs = batten_allocate(context, b->count, b->input_bytes);
+	b->ends = batten_allocate(context, b->count, poles * b->number);
 	b->settings = batten_allocate(context, b->count * BLOCK_SETTING_COUNT, b->number);
 	b->outcomes = batten_allocate(context, b->count * BLOCK_OUTCOME_COUNT, b->number);
-	b->turns = batten_allocate(context, b->groups, sizeof *b->turns);
+	b->turns = batten_allocate(context, b->queues.count, sizeof *b->turns);
 	b->followers = batten_allocate(context, b->shape.followers + 1, 2 * sizeof *b->followers);
 	b->rooms = batten_allocate(context, poles, sizeof *b->rooms);
-	return b->tables && b->inputs && b->settings && b->outcomes && b->turns && b->followers &&
-	               b->rooms
+	return b->tables && b->inputs && b->ends && b->settings && b->outcomes && b->turns &&
+	               b->followers && b->rooms
 	           ? BATTEN_OK
 	           : BATTEN_MEMORY;
 }
@@ -109,7 +112,7 @@ static void block_fill(const size_t *which, block *b)
 {
 	net_block_pack_shape(b->plan, &b->shape, b->alone, b->numbers);
 	b->numbers[NET_BLOCK_COUNT] = (int32_t)b->count;
-	b->numbers[NET_BLOCK_SHARE] = (int32_t)b->share;
+	b->numbers[NET_BLOCK_SHARE] = (int32_t)b->queues.share;
 	net_block_pack_followers(b->plan, b->followers);
 	net_block_pack_tables(b->plan, &b->shape, b->tables);
 	for (size_t i = 0; i < b->count; i++)
@@ -131,39 +134,32 @@ static batten_status block_upload(const batch_engine *engine, block *b)
 		{ &b->inputs_on, b->count * b->input_bytes, b->inputs },
 		{ &b->settings_on, b->count * BLOCK_SETTING_COUNT * b->number, b->settings },
 		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
-		{ &b->turns_on, b->groups * sizeof *b->turns, NULL },
-		{ &b->state_on, b->groups * state, NULL },
+		{ &b->ends_on, b->count * net_plan_poles(b->plan) * b->number, NULL },
+		{ &b->turns_on, b->queues.count * sizeof *b->turns, NULL },
+		{ &b->state_on, b->queues.groups * state, NULL },
 	};
 	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
 }
 
 static batten_status block_launch(const batch_engine *engine, block *b)
 {
-	const size_t lane_bytes = engine->recipe.lanes * b->number;
-	const size_t group = engine->recipe.work_group;
 	const device_argument arguments[] = {
-		{ .buffer = b->shape_on },
-		{ .buffer = b->first_u_on },
-		{ .buffer = b->first_v_on },
-		{ .buffer = b->followers_on },
-		{ .buffer = b->tables_on },
-		{ .buffer = b->inputs_on },
-		{ .buffer = b->settings_on },
-		{ .buffer = b->outcomes_on },
-		{ .buffer = b->turns_on },
-		{ .buffer = b->state_on },
-		{ .size = net_block_sum_numbers(&b->shape) * lane_bytes },
-		{ .size = (BLOCK_OUTCOME_COUNT + 1) * lane_bytes },
+		{ .buffer = b->shape_on },     { .buffer = b->first_u_on },  { .buffer = b->first_v_on },
+		{ .buffer = b->followers_on }, { .buffer = b->tables_on },   { .buffer = b->inputs_on },
+		{ .buffer = b->settings_on },  { .buffer = b->outcomes_on }, { .buffer = b->ends_on },
+		{ .buffer = b->turns_on },     { .buffer = b->state_on },    { .size = sizeof(int32_t) },
 	};
 	batten_status status = device_launch(engine->session, engine->kernel, arguments,
-	                                     sizeof arguments / sizeof arguments[0], b->groups, group);
+	                                     sizeof arguments / sizeof arguments[0], b->queues.groups,
+	                                     engine->recipe.work_group);
 	if (status == BATTEN_OK)
-		status = device_buffer_read(b->inputs_on, b->count * b->input_bytes, b->inputs);
+		status = device_buffer_read(b->ends_on, b->count * net_plan_poles(b->plan) * b->number,
+		                            b->ends);
 	if (status == BATTEN_OK)
 		status = device_buffer_read(b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number,
 		                            b->outcomes);
 	if (status == BATTEN_OK)
-		status = device_buffer_read(b->turns_on, b->groups * sizeof *b->turns, b->turns);
+		status = device_buffer_read(b->turns_on, b->queues.count * sizeof *b->turns, b->turns);
 	return status;
 }
 
@@ -181,10 +177,10 @@ batten_status net_block_engine_run(batch_engine *engine, const net_plan *plan, c
 			status = batch_engine_fail(engine, status);
 	}
 	for (size_t i = 0; i < count && status == BATTEN_OK; i++)
-		net_block_unpack(plan, which[i], (char *)b.inputs + i * b.input_bytes,
+		net_block_unpack(plan, which[i], (char *)b.ends + i * net_plan_poles(plan) * b.number,
 		                 (char *)b.outcomes + i * BLOCK_OUTCOME_COUNT * b.number);
-	for (size_t g = 0; g < b.groups && status == BATTEN_OK && lane_turns; g++)
-		*lane_turns += (uint64_t)b.turns[g] * engine->recipe.lanes;
+	if (status == BATTEN_OK && lane_turns)
+		*lane_turns += batch_engine_lane_turns(&engine->recipe, &b.queues, b.turns);
 	block_release(engine, &b);
 	return status;
 }

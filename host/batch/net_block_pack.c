@@ -92,11 +92,6 @@ size_t net_block_state_numbers(const net_block_shape *shape, bool alone)
 	                               shape->u->order, shape->u->points);
 }
 
-size_t net_block_sum_numbers(const net_block_shape *shape)
-{
-	return NET_BLOCK_SUM_NUMBERS(shape->u->poles, shape->v->count);
-}
-
 batten_status net_block_knows(const net_plan *plan, bool *knows)
 {
 	net_block_shape shape;

@@ -15,10 +15,9 @@ typedef struct net_block_shape {
 /* Errors: MEMORY. */
 batten_status net_block_shape_of(const net_plan *plan, net_block_shape *out);
 
-/* Numbers of a group's state and of its sums, in one lane; alone: the group is one work-item. */
+/* Lines of samples kept, and numbers of a search's state; alone: it is worked by one work-item. */
 size_t net_block_slots(const net_block_shape *shape, bool alone);
 size_t net_block_state_numbers(const net_block_shape *shape, bool alone);
-size_t net_block_sum_numbers(const net_block_shape *shape);
 
 /* Whether the plan's searches are of a kind and size that the block search knows. Errors: MEMORY. */
 batten_status net_block_knows(const net_plan *plan, bool *knows);

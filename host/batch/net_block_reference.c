@@ -10,9 +10,7 @@ static bool allocate(net_block_reference *r)
 	const size_t poles = net_plan_poles(r->plan);
 	r->tables = batten_allocate(context, net_block_table_count(&r->shape), number);
 	r->input = batten_allocate(context, poles, BLOCK_INPUT_COUNT * number);
-	r->scratch = batten_allocate(
-		context, net_block_state_numbers(&r->shape, true) + net_block_sum_numbers(&r->shape),
-		number);
+	r->scratch = batten_allocate(context, net_block_state_numbers(&r->shape, true), number);
 	r->followers = batten_allocate(context, r->shape.followers + 1, 2 * sizeof *r->followers);
 	r->rooms = batten_allocate(context, poles, sizeof *r->rooms);
 	return r->tables && r->input && r->scratch && r->followers && r->rooms;

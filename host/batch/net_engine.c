@@ -9,19 +9,21 @@
 /* Most bytes of packed searches in one launch: large enough to hide a launch, small enough that a
  * batch of any size runs in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20, BLOCK_ROUNDS = 8 };
+/* Of a GPU, as the search over offsets has them. */
+enum { GPU_BYTES = 160 << 20, GPU_ABREAST = 8, GPU_TOGETHER = 32 };
 
-/* Bytes of local memory a group needs when its state lies there. */
-static size_t local_bytes(const net_plan *plan, const batch_engine_recipe *recipe)
+/* Bytes of a group's state. */
+static size_t state_bytes(const net_plan *plan, const batch_engine_recipe *recipe)
 {
-	const size_t numbers = NET_STATE_COUNT * net_plan_poles(plan) + plan->v.count +
-	                       2 * (size_t)recipe->work_group;
-	return numbers * recipe->lanes * batch_engine_number_size(recipe->precision);
+	const size_t together = batch_engine_together(recipe);
+	return NET_STATE_NUMBERS(net_plan_poles(plan), plan->v.count, together) * recipe->lanes *
+	       batch_engine_number_size(recipe->precision);
 }
 
 static bool state_is_global(const net_plan *plan, const batch_engine_recipe *recipe,
                             const batten_device *device)
 {
-	return local_bytes(plan, recipe) > device->local_memory_bytes;
+	return recipe->abreast || state_bytes(plan, recipe) > device->local_memory_bytes;
 }
 
 static batten_status run_selftest(batch_engine *engine, const void *plan)
@@ -38,7 +40,7 @@ batten_status net_engine_open(const net_plan *plan, size_t index, const batten_d
 		                           .precision = plan->options.precision,
 		                           .lanes = plan->options.lanes,
 		                           .work_group = plan->options.work_group };
-	batch_engine_shape_choose(device, recipe.precision, &recipe.lanes, &recipe.work_group);
+	batch_engine_shape_abreast(device, GPU_ABREAST, GPU_TOGETHER, &recipe);
 	(void)snprintf(recipe.options, sizeof recipe.options,
 	               "-DNET_FAIRNESS=%d -DNET_ORDER_U=%zu -DNET_ORDER_V=%zu %s", plan->fairness,
 	               plan->u.order, plan->v.order,
@@ -51,10 +53,11 @@ size_t net_engine_block(const batch_engine *engine, const net_plan *plan)
 	const batten_device *device = batch_engine_device(engine);
 	const size_t lane_bytes = engine->recipe.lanes *
 	                          batch_engine_number_size(engine->recipe.precision);
-	const size_t poles = (NET_ARRAY_COUNT + NET_STATE_COUNT) * net_plan_poles(plan);
-	const size_t group_bytes = (net_pack_sample_count(plan) + net_pack_kept_count(plan) + poles) *
-	                           lane_bytes;
-	const size_t limit = batch_engine_launch_bytes(engine, BLOCK_BYTES);
+	const size_t numbers = net_pack_sample_count(plan) + net_pack_kept_count(plan) +
+	                       NET_ARRAY_COUNT * net_plan_poles(plan);
+	const size_t group_bytes = numbers * lane_bytes + state_bytes(plan, &engine->recipe);
+	const size_t limit = batch_engine_launch_bytes(engine,
+	                                               device->is_cpu ? BLOCK_BYTES : GPU_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;
@@ -130,7 +133,7 @@ static batten_status block_upload(const batch_engine *engine, const net_plan *pl
 {
 	const net_directions *d = &plan->directions;
 	const bool global = state_is_global(plan, &engine->recipe, batch_engine_device(engine));
-	const size_t state = NET_STATE_COUNT * net_plan_poles(plan) * b->lanes * b->number * b->groups;
+	const size_t state = state_bytes(plan, &engine->recipe) * b->groups;
 	/* An OpenCL buffer cannot be empty: lists that may be have room for one more. */
 	const batch_engine_upload uploads[] = {
 		{ &b->shape_on, sizeof b->shape, b->shape },
@@ -154,9 +157,7 @@ static batten_status block_upload(const batch_engine *engine, const net_plan *pl
 
 static batten_status block_launch(const batch_engine *engine, const net_plan *plan, block *b)
 {
-	const size_t lane_bytes = b->lanes * b->number;
 	const size_t group = engine->recipe.work_group;
-	const size_t state = NET_STATE_COUNT * net_plan_poles(plan) * lane_bytes;
 	const device_argument arguments[] = {
 		{ .buffer = b->shape_on },
 		{ .buffer = b->first_u_on },
@@ -171,9 +172,8 @@ static batten_status block_launch(const batch_engine *engine, const net_plan *pl
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcome_on },
 		{ .buffer = b->kept_on },
-		{ .buffer = b->state_on, .size = b->state_on ? 0 : state },
-		{ .size = plan->v.count * lane_bytes },
-		{ .size = 2 * group * lane_bytes },
+		{ .buffer = b->state_on, .size = b->state_on ? 0 : state_bytes(plan, &engine->recipe) },
+		{ .size = sizeof(int32_t) },
 	};
 	batten_status status = device_launch(engine->session, engine->kernel, arguments,
 	                                     sizeof arguments / sizeof arguments[0], b->groups, group);

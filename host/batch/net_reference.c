@@ -14,7 +14,7 @@ batten_status net_reference_create(const net_plan *plan, net_reference *out)
 	r.samples = batten_allocate(context, net_pack_sample_count(plan), number);
 	r.arrays = batten_allocate(context, poles, NET_ARRAY_COUNT * number);
 	r.kept = batten_allocate(context, net_pack_kept_count(plan), number);
-	r.scratch = batten_allocate(context, NET_STATE_COUNT * poles + plan->v.count, number);
+	r.scratch = batten_allocate(context, NET_STATE_NUMBERS(poles, plan->v.count, 1), number);
 	r.rooms = batten_allocate(context, poles, sizeof *r.rooms);
 	if (!r.tables || !r.heights || !r.samples || !r.arrays || !r.kept || !r.scratch || !r.rooms) {
 		net_reference_release(&r);

@@ -13,8 +13,7 @@ enum {
 	POLES_MOST = NET_ORDER_MOST + SPANS - 1, /* along one direction */
 	SAMPLES_MOST = (POLES_MOST - 1) * NET_POINTS_MOST,
 	NET_MOST = POLES_MOST * POLES_MOST,
-	LANES_MOST = 16,
-	SEARCHES_MOST = 2 * LANES_MOST + 1
+	SEARCHES_MOST = 65
 };
 
 /* Searches on one net and what both sides found. */

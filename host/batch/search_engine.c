@@ -15,6 +15,27 @@ struct search_engine {
 /* Most bytes of packed searches in one launch: large enough to hide a launch, small enough that a
  * batch of any size runs in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20, BLOCK_ROUNDS = 8 };
+/* Of a GPU, by measurement (bench/README.md, what was tried). */
+enum { GPU_BYTES = 160 << 20, GPU_GROUPS_A_UNIT = 64, GPU_ABREAST = 8, GPU_TOGETHER = 32 };
+
+static batch_engine_recipe recipe_of(const search_shape *shape)
+{
+	return (batch_engine_recipe){ .kernel = shape->textbook ? "textbook" : "multilevel",
+		                          .source = shape->textbook ? kernel_source_textbook
+		                                                    : kernel_source_multilevel,
+		                          .device = shape->device,
+		                          .precision = shape->precision,
+		                          .lanes = shape->lanes,
+		                          .work_group = shape->work_group };
+}
+
+/* Bytes of a group's state. */
+static size_t state_bytes(const search_plan *plan, const batch_engine_recipe *recipe)
+{
+	const size_t together = batch_engine_together(recipe);
+	return SEARCH_STATE_NUMBERS(plan->node_count, plan->waterline_count, together) * recipe->lanes *
+	       batch_engine_number_size(recipe->precision);
+}
 
 search_shape search_shape_choose(const search_plan *plan, size_t index, const batten_device *device)
 {
@@ -25,12 +46,11 @@ search_shape search_shape_choose(const search_plan *plan, size_t index, const ba
 		                   .fairness = plan->fairness,
 		                   .textbook = plan->options.algorithm == BATTEN_ALGORITHM_TEXTBOOK,
 		                   .penalised = plan->penalties != NULL };
-	batch_engine_shape_choose(device, shape.precision, &shape.lanes, &shape.work_group);
-	const size_t lane_bytes = shape.lanes * batch_engine_number_size(shape.precision);
-	const size_t state = (SEARCH_STATE_COUNT * plan->node_count + plan->waterline_count +
-	                      2 * shape.work_group) *
-	                     lane_bytes;
-	shape.global_state = state > device->local_memory_bytes;
+	batch_engine_recipe recipe = recipe_of(&shape);
+	batch_engine_shape_abreast(device, GPU_ABREAST, GPU_TOGETHER, &recipe);
+	shape.lanes = recipe.lanes;
+	shape.work_group = recipe.work_group;
+	shape.global_state = recipe.abreast || state_bytes(plan, &recipe) > device->local_memory_bytes;
 	return shape;
 }
 
@@ -52,13 +72,8 @@ bool search_engine_is_strict(const search_engine *e)
 batten_status search_engine_open(batten_context *context, const search_shape *shape,
                                  search_engine **out, batten_selftest *result)
 {
-	batch_engine_recipe recipe = { .kernel = shape->textbook ? "textbook" : "multilevel",
-		                           .source = shape->textbook ? kernel_source_textbook
-		                                                     : kernel_source_multilevel,
-		                           .device = shape->device,
-		                           .precision = shape->precision,
-		                           .lanes = shape->lanes,
-		                           .work_group = shape->work_group };
+	batch_engine_recipe recipe = recipe_of(shape);
+	recipe.abreast = batch_engine_stands_abreast(shape->lanes, shape->work_group);
 	(void)snprintf(recipe.options, sizeof recipe.options, "%s -DGRID_FAIRNESS=%d%s",
 	               batch_engine_state_option(shape->global_state), shape->fairness,
 	               shape->penalised ? " -DGRID_PENALTY=1" : "");
@@ -69,6 +84,7 @@ batten_status search_engine_open(batten_context *context, const search_shape *sh
 		if (!made)
 			return BATTEN_MEMORY;
 		made->shape = *shape;
+		made->base.size = sizeof *made;
 		status = batch_engine_start(&made->base, context, &recipe);
 		if (status == BATTEN_OK)
 			status = batch_engine_judge(&made->base, search_selftest_run(made, &made->base.test));
@@ -88,10 +104,15 @@ size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 {
 	const batten_device *device = batch_engine_device(&engine->base);
 	const size_t lanes = engine->shape.lanes;
-	const size_t group_bytes = (SEARCH_ARRAY_COUNT + SEARCH_STATE_COUNT) * plan->node_count *
-	                           lanes * batch_engine_number_size(engine->shape.precision);
-	const size_t limit = batch_engine_launch_bytes(&engine->base, BLOCK_BYTES);
-	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
+	const size_t group_bytes = SEARCH_ARRAY_COUNT * plan->node_count * lanes *
+	                               batch_engine_number_size(engine->shape.precision) +
+	                           state_bytes(plan, &engine->base.recipe);
+	const size_t limit = batch_engine_launch_bytes(&engine->base,
+	                                               device->is_cpu ? BLOCK_BYTES : GPU_BYTES);
+	size_t groups = (size_t)device->compute_units *
+	                (device->is_cpu ? BLOCK_ROUNDS : GPU_GROUPS_A_UNIT);
+	groups = batch_engine_groups_most(&engine->base, groups,
+	                                  state_bytes(plan, &engine->base.recipe));
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;
 	return (groups ? groups : 1) * lanes;
@@ -140,7 +161,7 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 	/* An OpenCL buffer cannot be empty. */
 	const size_t centres = (2 * plan->direction_count + 1) * sizeof(int32_t);
 	const size_t state = engine->shape.global_state
-	                         ? SEARCH_STATE_COUNT * plan->node_count * b->lanes * number * b->groups
+	                         ? state_bytes(plan, &engine->base.recipe) * b->groups
 	                         : 0;
 	const batch_engine_upload uploads[] = {
 		{ &b->levels_on, (size_t)plan->level_count * sizeof plan->levels[0], plan->levels },
@@ -156,7 +177,6 @@ static batten_status block_upload(search_engine *engine, const search_plan *plan
 
 static batten_status block_launch(search_engine *engine, const search_plan *plan, block *b)
 {
-	const size_t lane_bytes = b->lanes * batch_engine_number_size(engine->shape.precision);
 	const int32_t numbers[] = { (int32_t)plan->station_count, (int32_t)plan->waterline_count,
 		                        plan->level_count, (int32_t)plan->options.iteration_limit };
 	const size_t group = engine->shape.work_group;
@@ -172,9 +192,8 @@ static batten_status block_launch(search_engine *engine, const search_plan *plan
 		{ .buffer = b->settings_on },
 		{ .buffer = b->outcome_on },
 		{ .buffer = b->state_on,
-		  .size = b->state_on ? 0 : SEARCH_STATE_COUNT * plan->node_count * lane_bytes },
-		{ .size = plan->waterline_count * lane_bytes },
-		{ .size = 2 * group * lane_bytes },
+		  .size = b->state_on ? 0 : state_bytes(plan, &engine->base.recipe) },
+		{ .size = sizeof(int32_t) },
 	};
 	batten_status status = device_launch(engine->base.session, engine->base.kernel, arguments,
 	                                     sizeof arguments / sizeof arguments[0], b->groups, group);

@@ -191,9 +191,10 @@ batten_status search_grid_check(batten_context *context, const batten_grid *grid
 	return BATTEN_OK;
 }
 
-static bool is_lane_count(unsigned lanes)
+/* A work-item has at most 16, or, abreast, one. */
+static bool is_lane_count(unsigned lanes, unsigned work_group)
 {
-	return lanes <= 16 && (lanes & (lanes - 1)) == 0;
+	return (lanes <= 16 || work_group % lanes == 0) && (lanes & (lanes - 1)) == 0;
 }
 
 bool search_options_plain(const batten_search_options *options)
@@ -245,11 +246,11 @@ batten_status search_options_check(batten_context *context, const batten_search_
 	if (chosen->device < BATTEN_DEVICE_REFERENCE)
 		return batten_fail(context, BATTEN_USAGE,
 		                   "device %d: auto, reference or an index is expected", chosen->device);
-	if (!is_lane_count(chosen->lanes) || chosen->work_group > 1024)
+	if (!is_lane_count(chosen->lanes, chosen->work_group) || chosen->work_group > 1024)
 		return batten_fail(
 			context, BATTEN_USAGE,
-			"%u lanes in a work-group of %u: 1, 2, 4, 8 or 16 lanes and at most 1024 "
-			"work-items are expected",
+			"%u lanes in a work-group of %u: 1, 2, 4, 8 or 16 lanes, or a power of two that "
+			"divides the work-items, and at most 1024 of these are expected",
 			chosen->lanes, chosen->work_group);
 	return BATTEN_OK;
 }

@@ -11,9 +11,8 @@ batten_status search_reference_create(const search_plan *plan, search_reference 
 	search_reference search = { .plan = plan };
 	search.stencils = batten_allocate(plan->context, search_stencil_count(plan), size);
 	search.arrays = batten_allocate(plan->context, plan->node_count, SEARCH_ARRAY_COUNT * size);
-	/* Arrays of nodes, and a number a waterline. */
-	search.scratch = batten_allocate(plan->context, plan->node_count,
-	                                 (SEARCH_STATE_COUNT + 1) * size);
+	search.scratch = batten_allocate(
+		plan->context, SEARCH_STATE_NUMBERS(plan->node_count, plan->waterline_count, 1), size);
 	if (!search.stencils || !search.arrays || !search.scratch) {
 		search_reference_release(&search);
 		return BATTEN_MEMORY;

@@ -3,6 +3,15 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Fewer items of a batch are not worth another hand. */
+enum { HAND_ITEMS = 1024 };
+
+static size_t hands_most(const batch_work *b)
+{
+	const size_t threads = b->context->options.threads;
+	return threads < HANDS_MOST ? threads : HANDS_MOST;
+}
+
 /* One thread: a device, or (engine NULL) the C path. */
 typedef struct worker {
 	batch_work *batch;
@@ -72,6 +81,18 @@ static void add_device(batten_run *run, const char *name)
 	(void)snprintf(run->device + used, sizeof run->device - used, "%s%s", used ? " + " : "", name);
 }
 
+/* More threads for a device that is no CPU, as many as the batch and the threads allowed are enough for, and the
+ * device has queues for. */
+static void add_hands(const batch_work *b, batch_engine *engine, worker *workers, size_t *count)
+{
+	const size_t most = hands_most(b);
+	for (size_t hand = 1; hand < most && hand < b->queue.count / HAND_ITEMS; hand++) {
+		if (batch_engine_hand(engine, hand, &workers[*count].engine) != BATTEN_OK)
+			return;
+		++*count;
+	}
+}
+
 static batten_status add_engine(batch_work *b, size_t index, worker *workers, size_t *count,
                                 batten_run *run)
 {
@@ -86,6 +107,8 @@ static batten_status add_engine(batch_work *b, size_t index, worker *workers, si
 	++*count;
 	add_device(run, device.name);
 	run->strict = run->strict && batch_engine_is_strict(engine);
+	if (!device.is_cpu)
+		add_hands(b, engine, workers, count);
 	return BATTEN_OK;
 }
 
@@ -98,11 +121,12 @@ static void add_strict_devices(batch_work *b, worker *workers, size_t *count, ba
 		add_warning(run, reason);
 	for (size_t i = 0; i < devices; i++) {
 		batten_run trial = { .strict = true };
+		const size_t before = *count;
 		const batten_status status = add_engine(b, i, workers, count, &trial);
 		if (status != BATTEN_OK) {
 			add_warning(run, batten_context_error(b->context));
 		} else if (!trial.strict) {
-			--*count;
+			*count = before;
 			char line[200];
 			(void)snprintf(line, sizeof line,
 			               "device %zu (%.100s) differs from the C path: not used", i,
@@ -186,7 +210,7 @@ batten_status batch_work_run(batch_work *work, batten_run *run)
 	const bool on_devices = work->device != BATTEN_DEVICE_REFERENCE;
 	const size_t devices = on_devices ? batten_device_count(work->context, NULL) : 0;
 	const size_t threads = work->context->options.threads;
-	const size_t most = devices > threads ? devices : threads;
+	const size_t most = devices * HANDS_MOST > threads ? devices * HANDS_MOST : threads;
 	worker *workers = batten_allocate(work->context, most, sizeof *workers);
 	if (!workers)
 		return BATTEN_MEMORY;

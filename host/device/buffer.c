@@ -3,6 +3,16 @@
 #include <inttypes.h>
 #include <string.h>
 
+static void release(device_buffer *buffer)
+{
+	device_session *session = buffer->session;
+	if (buffer->memory) {
+		(void)session->system->opencl.ReleaseMemObject(buffer->memory);
+		device_object_released(session->system);
+	}
+	batten_release(session->context, buffer);
+}
+
 static batten_status create(device_session *session, cl_mem_flags flags, size_t size, void *memory,
                             device_buffer **out)
 {
@@ -16,7 +26,9 @@ static batten_status create(device_session *session, cl_mem_flags flags, size_t 
 	device_buffer *buffer = device_session_allocate(session, 1, sizeof *buffer);
 	if (!buffer)
 		return BATTEN_MEMORY;
-	*buffer = (device_buffer){ .session = session, .size = size };
+	*buffer = (device_buffer){ .session = session,
+		                       .size = size,
+		                       .room = memory && (flags & CL_MEM_USE_HOST_PTR) ? 0 : size };
 	batten_status status = BATTEN_OK;
 	cl_int code = CL_SUCCESS;
 	buffer->memory = DEVICE_CREATE(&session->system->opencl, &code, CreateBuffer,
@@ -26,16 +38,52 @@ static batten_status create(device_session *session, cl_mem_flags flags, size_t 
 		status = device_session_fail_call(session, code, "clCreateBuffer of %zu bytes", size);
 	}
 	if (status != BATTEN_OK) {
-		device_buffer_destroy(buffer);
+		release(buffer);
 		return status;
 	}
 	*out = buffer;
 	return BATTEN_OK;
 }
 
+/* Memory that was let go and is large enough, but not four times as large; NULL: there is none. */
+static device_buffer *take_spare(device_session *session, size_t size)
+{
+	for (size_t i = 0; i < session->spare_count; i++) {
+		device_buffer *spare = session->spares[i];
+		if (spare->room < size || spare->room / 4 > size)
+			continue;
+		session->spares[i] = session->spares[--session->spare_count];
+		spare->size = size;
+		return spare;
+	}
+	return NULL;
+}
+
+static batten_status create_on_device(device_session *session, size_t size, const void *initial,
+                                      device_buffer **out)
+{
+	device_buffer *buffer = take_spare(session, size);
+	batten_status status = BATTEN_OK;
+	if (!buffer)
+		status = create(session, CL_MEM_READ_WRITE, size, NULL, &buffer);
+	if (status == BATTEN_MEMORY && session->spare_count > 0) {
+		device_session_drop_spares(session);
+		status = create(session, CL_MEM_READ_WRITE, size, NULL, &buffer);
+	}
+	if (status == BATTEN_OK && initial)
+		status = device_buffer_write(buffer, size, initial);
+	if (status == BATTEN_OK)
+		*out = buffer;
+	else if (buffer)
+		release(buffer);
+	return status;
+}
+
 batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
                                    device_buffer **out)
 {
+	if (!session->entry->facts.is_cpu)
+		return create_on_device(session, size, initial, out);
 	/* Copied at once, on a CPU by this thread: a command of the queue would wake another and wait for it.
 	 * OpenCL takes a pointer that it could write through; this flag rules that out. */
 	const cl_mem_flags copied = initial ? CL_MEM_COPY_HOST_PTR : 0;
@@ -76,16 +124,21 @@ batten_status device_buffers_settle(device_buffer *const *buffers, size_t count)
 	return status == BATTEN_OK ? device_finish(buffers[0]->session) : status;
 }
 
+void device_session_drop_spares(device_session *session)
+{
+	while (session->spare_count > 0)
+		release(session->spares[--session->spare_count]);
+}
+
 void device_buffer_destroy(device_buffer *buffer)
 {
 	if (!buffer)
 		return;
 	device_session *session = buffer->session;
-	if (buffer->memory) {
-		(void)session->system->opencl.ReleaseMemObject(buffer->memory);
-		device_object_released(session->system);
-	}
-	batten_release(session->context, buffer);
+	if (session->entry->facts.is_cpu || buffer->room == 0 || session->spare_count == SPARES_MOST)
+		release(buffer);
+	else
+		session->spares[session->spare_count++] = buffer;
 }
 
 static batten_status check_size(const device_buffer *buffer, size_t size, const char *what)

@@ -20,6 +20,9 @@ batten_status device_describe(batten_context *context, size_t index, batten_devi
 void device_system_destroy(batten_context *context, device_system *system);
 
 batten_status device_session_open(batten_context *context, size_t index, device_session **out);
+/* A session of the same device for another thread, with a queue of its own, to be closed before the one it is
+ * of: their kernels may run at the same time. */
+batten_status device_session_branch(device_session *of, device_session **out);
 void device_session_close(device_session *session);
 /* The last failure of the session: one line that names the OpenCL call and its symbolic code. */
 const char *device_session_error(const device_session *session);
@@ -35,11 +38,15 @@ batten_status device_program_build(device_session *session, const char *name, co
 void device_program_destroy(device_program *program);
 
 batten_status device_kernel_create(device_program *program, const char *name, device_kernel **out);
+/* The same for a branch of the program's session. */
+batten_status device_kernel_branch(device_session *session, device_program *program,
+                                   const char *name, device_kernel **out);
 void device_kernel_destroy(device_kernel *kernel);
 /* Most work-items of a group this kernel can run with on its device. */
 size_t device_kernel_group_limit(const device_kernel *kernel);
 
-/* A buffer on the device; initial may be NULL (contents undefined), else size bytes are copied. */
+/* A buffer on the device; initial may be NULL (contents undefined), else size bytes are copied. A device that is no
+ * CPU takes memory that a buffer of the session was destroyed with: there, new memory takes longer than a launch. */
 batten_status device_buffer_create(device_session *session, size_t size, const void *initial,
                                    device_buffer **out);
 /* A buffer that is the caller's own memory, which is to outlive it: kernels of a CPU write there with

@@ -8,7 +8,12 @@ enum { ARGUMENTS_MOST = 256, VALUE_SIZE_MOST = 1024 };
 
 batten_status device_kernel_create(device_program *program, const char *name, device_kernel **out)
 {
-	device_session *session = program->session;
+	return device_kernel_branch(program->session, program, name, out);
+}
+
+batten_status device_kernel_branch(device_session *session, device_program *program,
+                                   const char *name, device_kernel **out)
+{
 	const device_opencl *opencl = &session->system->opencl;
 	device_kernel *kernel = device_session_allocate(session, 1, sizeof *kernel);
 	if (!kernel)

@@ -55,6 +55,17 @@ char *device_session_copy_text(device_session *session, const char *text)
 	return copy;
 }
 
+static batten_status start_queue(device_session *session)
+{
+	cl_int code = CL_SUCCESS;
+	session->queue = DEVICE_CREATE(&session->system->opencl, &code, CreateCommandQueue,
+	                               session->environment, session->entry->id, 0);
+	if (device_object_made(session->system, &code, session->queue))
+		return BATTEN_OK;
+	session->queue = NULL;
+	return device_session_fail_call(session, code, "clCreateCommandQueue");
+}
+
 static batten_status start(device_session *session)
 {
 	const device_opencl *opencl = &session->system->opencl;
@@ -68,12 +79,26 @@ static batten_status start(device_session *session)
 		session->environment = NULL;
 		return device_session_fail_call(session, code, "clCreateContext");
 	}
-	session->queue = DEVICE_CREATE(opencl, &code, CreateCommandQueue, session->environment,
-	                               entry->id, 0);
-	if (!device_object_made(session->system, &code, session->queue)) {
-		session->queue = NULL;
-		return device_session_fail_call(session, code, "clCreateCommandQueue");
+	return start_queue(session);
+}
+
+batten_status device_session_branch(device_session *of, device_session **out)
+{
+	device_session *session = batten_allocate(of->context, 1, sizeof *session);
+	if (!session)
+		return BATTEN_MEMORY;
+	*session = (device_session){ .context = of->context,
+		                         .system = of->system,
+		                         .entry = of->entry,
+		                         .environment = of->environment,
+		                         .borrowed = true };
+	const batten_status status = start_queue(session);
+	if (status != BATTEN_OK) {
+		(void)batten_fail(of->context, status, "%s", session->error);
+		device_session_close(session);
+		return status;
 	}
+	*out = session;
 	return BATTEN_OK;
 }
 
@@ -111,11 +136,12 @@ void device_session_close(device_session *session)
 	if (!session)
 		return;
 	const device_opencl *opencl = &session->system->opencl;
+	device_session_drop_spares(session);
 	if (session->queue) {
 		(void)opencl->ReleaseCommandQueue(session->queue);
 		device_object_released(session->system);
 	}
-	if (session->environment) {
+	if (session->environment && !session->borrowed) {
 		(void)opencl->ReleaseContext(session->environment);
 		device_object_released(session->system);
 	}

@@ -26,19 +26,25 @@ struct device_system {
 	atomic_size_t live; /* OpenCL objects not yet released */
 };
 
+enum { SPARES_MOST = 32 };
+
 struct device_session {
 	batten_context *context;
 	device_system *system;
 	const device_entry *entry;
 	cl_context environment;
+	bool borrowed; /* the environment is another session's */
 	cl_command_queue queue;
+	device_buffer *spares[SPARES_MOST]; /* let go, and kept to be taken again; not on a CPU */
+	size_t spare_count;
 	char error[512];
 };
 
 struct device_buffer {
 	device_session *session;
 	cl_mem memory;
-	size_t size;
+	size_t size; /* as asked for */
+	size_t room; /* of the memory; 0: the caller's own */
 };
 
 struct device_program {
@@ -67,6 +73,9 @@ batten_status device_session_fail(device_session *session, batten_status status,
 /* Memory of the context that records its failure in the session. */
 void *device_session_allocate(device_session *session, size_t count, size_t size);
 char *device_session_copy_text(device_session *session, const char *text);
+
+/* Releases the buffers kept to be taken again. */
+void device_session_drop_spares(device_session *session);
 
 /* True when the call made an object, which is then counted. */
 bool device_object_made(device_system *system, cl_int *code, const void *object);

@@ -14,8 +14,7 @@ typedef struct reference_block_search {
 #define REFERENCE_BLOCK_SLOTS(lines, hats, rounds) ((hats) > 0 || (rounds) > 0 ? (lines) + 2 : 3)
 /* Numbers of scratch that a search takes. */
 #define REFERENCE_BLOCK_SCRATCH(lines, length, hats)                                               \
-	(BLOCK_STATE_NUMBERS(lines, length, hats, REFERENCE_BLOCK_SLOTS(lines, hats, 1)) +             \
-	 BLOCK_SUM_COUNT * (lines))
+	BLOCK_STATE_NUMBERS(lines, length, hats, REFERENCE_BLOCK_SLOTS(lines, hats, 1))
 
 /* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line. input [BLOCK_INPUT_COUNT][nodes], settings
  * [BLOCK_SETTING_COUNT], outcome [BLOCK_OUTCOME_COUNT]. The end of the search takes the place of its

@@ -15,9 +15,9 @@ void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *s
 {
 	const int lines = shared->lines, length = shared->length, hats = shared->hats;
 	const int slots = REFERENCE_BLOCK_SLOTS(lines, hats, shared->rounds);
-	scalar lanes[BLOCK_OUTCOME_COUNT + 1];
 	scalar *ring = scratch + (size_t)BLOCK_STATE_COUNT * (size_t)(lines * length);
 	scalar *hat_rows = ring + (size_t)BLOCK_PROBE_COUNT * (size_t)(slots * length);
+	scalar *sums = hat_rows + BLOCK_HAT_NUMBERS(lines, hats);
 	const block_state s = { .lines = lines,
 		                    .length = length,
 		                    .nodes = lines * length,
@@ -28,13 +28,15 @@ void BLOCK_SEARCH_FUNCTION(const reference_block_search *shared, const scalar *s
 		                    .along = stencils + lines * STENCIL_SIZE,
 		                    .arrays = scratch,
 		                    .ring = ring,
-		                    .sums = hat_rows + BLOCK_HAT_NUMBERS(lines, hats),
+		                    .sums = sums,
 		                    .hats = hats,
 		                    .hat_values = stencils + (lines + length) * STENCIL_SIZE,
 		                    .hat_rows = hat_rows };
-	const block_memory m = {
-		.inputs = input, .settings = settings, .outcomes = outcome, .lanes = lanes
-	};
+	const block_memory m = { .inputs = input,
+		                     .ends = input,
+		                     .settings = settings,
+		                     .outcomes = outcome,
+		                     .lanes = sums + BLOCK_SUM_COUNT * lines };
 	block_queue q = { .next = 0, .end = 1 };
 	block_run(&s, &m, &q, shared->iteration_limit);
 }

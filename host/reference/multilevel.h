@@ -15,7 +15,7 @@ typedef struct reference_multilevel {
 	const int32_t *centres;
 } reference_multilevel;
 
-/* scratch has room for SEARCH_STATE_COUNT arrays of nodes and a number a waterline. */
+/* scratch has room for SEARCH_STATE_NUMBERS of one work-item. */
 void reference_multilevel_f64(const reference_multilevel *plan, const double *stencils,
                               double *arrays, const double *settings, double *outcome,
                               double *scratch);

@@ -12,15 +12,13 @@ INLINED void work_search(const reference_multilevel *plan, const scalar *stencil
                          const scalar *settings, scalar *outcome, scalar *scratch)
 {
 	const size_t nodes = ((size_t)plan->stations + 2) * ((size_t)plan->waterlines + 2);
-	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings, scratch,
-	                          scratch + SEARCH_STATE_COUNT * nodes);
-	scalar gathered[2];
+	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings,
+	                          scratch);
 	s.fairness = plan->fairness;
 	s.penalised = plan->penalised;
 	search_levels(&s, plan->level_count, plan->levels, plan->centres);
 	search_slopes_clear(&s);
-	search_run(&s, plan->iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes, outcome,
-	           gathered);
+	search_run(&s, plan->iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes, outcome);
 }
 
 WITH_FMA_WHERE_THERE_IS(MULTILEVEL_FUNCTION, work_search,

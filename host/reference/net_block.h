@@ -14,7 +14,7 @@ typedef struct reference_net_block {
 
 /* tables as the kernel has them; input [BLOCK_INPUT_COUNT][poles], settings [BLOCK_SETTING_COUNT], outcome
  * [BLOCK_OUTCOME_COUNT]; scratch has
- * room for NET_BLOCK_STATE_NUMBERS and NET_BLOCK_SUM_NUMBERS. The end of the search takes the place of its start. */
+ * room for NET_BLOCK_STATE_NUMBERS. The end of the search takes the place of its start. */
 void reference_net_block_f64(const reference_net_block *shared, const double *tables, double *input,
                              const double *settings, double *outcome, double *scratch);
 void reference_net_block_f32(const reference_net_block *shared, const float *tables, float *input,

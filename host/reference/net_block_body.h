@@ -30,7 +30,7 @@ INLINED void work_search(const reference_net_block *shared, const scalar *tables
 	scalar *sums = work + (size_t)shape[NET_BLOCK_SLOTS] *
 	                          (size_t)NET_BLOCK_LINE_NUMBERS(shape[NET_BLOCK_COLUMNS], count_u,
 	                                                         shared->order_u, shared->points_u);
-	scalar lanes[BLOCK_OUTCOME_COUNT + 1];
+	scalar *terms = sums + BLOCK_SUM_COUNT * shape[NET_BLOCK_COLUMNS];
 	const block_state s = {
 		.lines = shape[NET_BLOCK_COLUMNS],
 		.length = shape[NET_BLOCK_ROWS],
@@ -56,11 +56,13 @@ INLINED void work_search(const reference_net_block *shared, const scalar *tables
 		.samples = samples,
 		.work = work,
 		.sums = sums,
-		.terms = sums + BLOCK_SUM_COUNT * shape[NET_BLOCK_COLUMNS],
+		.terms = terms,
 	};
-	const block_memory m = {
-		.inputs = input, .settings = settings, .outcomes = outcome, .lanes = lanes
-	};
+	const block_memory m = { .inputs = input,
+		                     .ends = input,
+		                     .settings = settings,
+		                     .outcomes = outcome,
+		                     .lanes = terms + count_v };
 	block_queue q = { .next = 0, .end = 1 };
 	block_run(&s, &m, &q, shape[NET_BLOCK_ITERATIONS]);
 }

@@ -15,7 +15,7 @@ typedef struct reference_net_search {
 
 /* tables: NET_TABLE_SIZE(order_u) a sample along u, then of v. arrays [NET_ARRAY_COUNT][poles],
  * settings [NET_SETTING_COUNT], outcome [SEARCH_OUTCOME_COUNT]; kept has room for NET_KEPT_SIZE (_THIRD) numbers
- * a sample, scratch for NET_STATE_COUNT nets and a number a line. */
+ * a sample, scratch for NET_STATE_NUMBERS of one work-item. */
 void reference_net_search_f64(const reference_net_search *shared, const double *tables,
                               const double *heights, const double *samples, double *arrays,
                               const double *settings, double *outcome, double *kept,

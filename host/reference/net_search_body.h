@@ -21,6 +21,7 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 {
 	const int32_t *shape = shared->shape;
 	const int nodes = shape[NET_SHAPE_COLUMNS] * shape[NET_SHAPE_ROWS];
+	scalar *sums = scratch + NET_STATE_COUNT * (size_t)nodes;
 	const search_state s = {
 		.nodes = nodes,
 		.columns = shape[NET_SHAPE_COLUMNS],
@@ -46,12 +47,12 @@ INLINED void work_search(const reference_net_search *shared, const scalar *table
 		.samples = samples,
 		.moves = scratch + 2 * (size_t)nodes,
 		.ways = scratch + 4 * (size_t)nodes,
-		.sums = scratch + NET_STATE_COUNT * (size_t)nodes,
+		.sums = sums,
+		.gathered = sums + shape[NET_SHAPE_LINES],
 		.kept = kept,
 		.rounding = settings[NET_SETTING_ROUNDING],
 	};
-	scalar gathered[2];
-	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays, outcome, gathered);
+	search_run(&s, shape[NET_SHAPE_ITERATIONS], settings, arrays, outcome);
 }
 
 WITH_FMA_WHERE_THERE_IS(NET_SEARCH_FUNCTION, work_search,

@@ -10,8 +10,8 @@ void TEXTBOOK_FUNCTION(const reference_multilevel *plan, const scalar *stencils,
                        const scalar *settings, scalar *outcome, scalar *scratch)
 {
 	const size_t nodes = ((size_t)plan->stations + 2) * ((size_t)plan->waterlines + 2);
-	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings, scratch,
-	                          scratch + SEARCH_STATE_COUNT * nodes);
+	search_state s = state_of(plan->stations, plan->waterlines, stencils, arrays, settings,
+	                          scratch);
 	s.fairness = plan->fairness;
 	textbook_run(&s, plan->iteration_limit, settings, arrays + SEARCH_ARRAY_Y * nodes, outcome);
 }

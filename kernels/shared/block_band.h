@@ -15,7 +15,7 @@
 /* Rows of `band` numbers, the diagonal first; the inverses of the pivots take its place when it is factored.
  * way: a number a row. */
 typedef struct block_band {
-	STATE real *rows, *way;
+	STATE stored *rows, *way;
 	int count, band;
 } block_band;
 
@@ -32,17 +32,17 @@ SHARED_FUNCTION real block_band_inverse(real pivot, real floor)
  * there. */
 SHARED_FUNCTION void block_band_eliminate(block_band table, int n, int end, real inverse)
 {
-	STATE real *row = table.rows + n * table.band;
+	STATE stored *row = table.rows + n * table.band;
 	const int reach = end - n < table.band ? end - n : table.band;
 	ROLLED
 	for (int d = 1; d < reach; d++) {
-		STATE real *below = row + d * (table.band - 1);
-		const real factor = row[d] * inverse;
+		STATE stored *below = row + d * (table.band - 1);
+		const real factor = AT(row[d]) * inverse;
 		ROLLED
 		for (int e = d; e < reach; e++)
-			below[e] -= factor * row[e];
+			AT(below[e]) -= factor * AT(row[e]);
 	}
-	row[0] = inverse;
+	AT(row[0]) = inverse;
 }
 
 /* The bottom of the parabola in the place of the slopes, which stand in way. */
@@ -50,22 +50,22 @@ SHARED_FUNCTION void block_band_solve(block_band table)
 {
 	ROLLED
 	for (int n = 0; n < table.count; n++) {
-		const STATE real *row = table.rows + n * table.band;
+		const STATE stored *row = table.rows + n * table.band;
 		const int reach = table.count - n < table.band ? table.count - n : table.band;
-		const real part = table.way[n] * row[0];
+		const real part = AT(table.way[n]) * AT(row[0]);
 		ROLLED
 		for (int d = 1; d < reach; d++)
-			table.way[n + d] -= row[d] * part;
+			AT(table.way[n + d]) -= AT(row[d]) * part;
 	}
 	ROLLED
 	for (int n = table.count - 1; n >= 0; n--) {
-		const STATE real *row = table.rows + n * table.band;
+		const STATE stored *row = table.rows + n * table.band;
 		const int reach = table.count - n < table.band ? table.count - n : table.band;
-		real left = table.way[n];
+		real left = AT(table.way[n]);
 		ROLLED
 		for (int d = 1; d < reach; d++)
-			left -= row[d] * table.way[n + d];
-		table.way[n] = left * row[0];
+			left -= AT(row[d]) * AT(table.way[n + d]);
+		AT(table.way[n]) = left * AT(row[0]);
 	}
 }
 

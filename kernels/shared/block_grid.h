@@ -18,7 +18,8 @@ SHARED_FUNCTION real block_explore(const block_state *s, real far, real part, in
 		ROLLED
 		for (line = first + WORK_ITEM; line < first + at_once && line < s->lines;
 		     line += WORK_ITEMS)
-			s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line] = block_probe_line(s, line, far, part);
+			AT(s->sums[(BLOCK_SUM_COUNT - 1) * s->lines + line]) = block_probe_line(s, line, far,
+			                                                                        part);
 		WAIT;
 		ROLLED
 		for (line = first - 1 + WORK_ITEM; line < first + at_once - 1; line += WORK_ITEMS) {
@@ -71,10 +72,10 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
 
 SHARED_FUNCTION real block_trial_objective(const block_state *s)
 {
-	const STATE real *trial = block_array(s, BLOCK_STATE_TRIAL);
+	const STATE stored *trial = block_array(s, BLOCK_STATE_TRIAL);
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		s->sums[2 * s->lines + line] = block_line_objective(s, trial, line);
+		AT(s->sums[2 * s->lines + line]) = block_line_objective(s, trial, line);
 	WAIT;
 	return block_total(s, 2);
 }

@@ -35,7 +35,7 @@ SHARED_FUNCTION block_band block_hats_apart(const block_state *s)
 SHARED_FUNCTION real block_is_free(const block_state *s, int n)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	return CHOOSE(block_array(s, BLOCK_STATE_INVERSE)[n] > zero, SPREAD(LITERAL(1.0)), zero);
+	return CHOOSE(AT(block_array(s, BLOCK_STATE_INVERSE)[n]) > zero, SPREAD(LITERAL(1.0)), zero);
 }
 
 /* What the hats of a line weigh in the second derivatives at a node; t only on its own line. */
@@ -71,33 +71,33 @@ SHARED_FUNCTION void block_hats_at(const block_state *s, int at, int of, int k, 
 
 /* Adds what hats of one line, at a node, couple with those of the same or a later line: to rows, where
  * the coupling of the first of both is. `met` hats are not 0. bends: the second line is the node's own. */
-SHARED_FUNCTION void block_couple(STATE real *rows, int band, int met, int same, int bends,
+SHARED_FUNCTION void block_couple(STATE stored *rows, int band, int met, int same, int bends,
                                   const block_hats *bent, const block_hats *hats)
 {
 	ROLLED
 	for (int j = 0; j < met; j++) {
-		STATE real *row = rows + j * (band - 1);
+		STATE stored *row = rows + j * (band - 1);
 		ROLLED
 		for (int i = same ? j : 0; i < met; i++) {
 			const real sum = bent->r[j] * hats->r[i] + bent->s[j] * hats->s[i];
-			row[i] += bends ? sum + bent->t[j] * hats->t[i] : sum;
+			AT(row[i]) += bends ? sum + bent->t[j] * hats->t[i] : sum;
 		}
 	}
 }
 
 /* The curvatures probed at a node times what hats weigh there: of its own line, or of another. */
-SHARED_FUNCTION void block_bend_hats(STATE const real *probes, int own, const block_hats *hats,
+SHARED_FUNCTION void block_bend_hats(STATE const stored *probes, int own, const block_hats *hats,
                                      block_hats *bent)
 {
 	for (int j = 0; j < BLOCK_HATS_MET; j++) {
 		const real r = hats->r[j], s = hats->s[j];
-		bent->r[j] = probes[BLOCK_PROBE_RR] * r + probes[BLOCK_PROBE_RS] * s;
-		bent->s[j] = probes[BLOCK_PROBE_RS] * r + probes[BLOCK_PROBE_SS] * s;
-		bent->t[j] = probes[BLOCK_PROBE_RT] * r + probes[BLOCK_PROBE_ST] * s;
+		bent->r[j] = AT(probes[BLOCK_PROBE_RR]) * r + AT(probes[BLOCK_PROBE_RS]) * s;
+		bent->s[j] = AT(probes[BLOCK_PROBE_RS]) * r + AT(probes[BLOCK_PROBE_SS]) * s;
+		bent->t[j] = AT(probes[BLOCK_PROBE_RT]) * r + AT(probes[BLOCK_PROBE_ST]) * s;
 		if (own) {
-			bent->r[j] += probes[BLOCK_PROBE_RT] * hats->t[j];
-			bent->s[j] += probes[BLOCK_PROBE_ST] * hats->t[j];
-			bent->t[j] += probes[BLOCK_PROBE_TT] * hats->t[j];
+			bent->r[j] += AT(probes[BLOCK_PROBE_RT]) * hats->t[j];
+			bent->s[j] += AT(probes[BLOCK_PROBE_ST]) * hats->t[j];
+			bent->t[j] += AT(probes[BLOCK_PROBE_TT]) * hats->t[j];
 		}
 	}
 }
@@ -107,14 +107,14 @@ SHARED_FUNCTION void block_bend_hats(STATE const real *probes, int own, const bl
 SHARED_FUNCTION void block_gather_hats_around(const block_state *s, int at, int from, int to)
 {
 	const block_band table = block_hats_whole(s);
-	const STATE real *ring = block_ring(s, at);
+	const STATE stored *ring = block_ring(s, at);
 	ROLLED
 	for (int k = 1; k + 1 < s->length; k++) {
 		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
-		const STATE real *probes = ring + k * BLOCK_PROBE_COUNT;
+		const STATE stored *probes = ring + k * BLOCK_PROBE_COUNT;
 		const int first = (int)v[BLOCK_HAT_FIRST];
 		const int met = (int)v[BLOCK_HAT_COUNT];
-		STATE real *rows = table.rows + ((at - 1) * s->hats + first) * table.band;
+		STATE stored *rows = table.rows + ((at - 1) * s->hats + first) * table.band;
 		block_hats hats[3], bent;
 		ROLLED
 		for (int a = from; a < 3; a++)
@@ -134,22 +134,22 @@ SHARED_FUNCTION void block_gather_hats_around(const block_state *s, int at, int 
 SHARED_FUNCTION void block_begin_hats(const block_state *s, int line, real weight)
 {
 	const block_band table = block_hats_whole(s);
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
-	STATE real *rows = table.rows + line * s->hats * table.band;
+	const STATE stored *close = block_array(s, BLOCK_INPUT_CLOSE);
+	STATE stored *rows = table.rows + line * s->hats * table.band;
 	ROLLED
 	for (int n = 0; n < s->hats * table.band; n++)
-		rows[n] = SPREAD(LITERAL(0.0));
+		AT(rows[n]) = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int k = 0; k < s->length; k++) {
 		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
 		const int n = line * s->length + k;
-		const real here = ((close[n] + close[n]) + weight) * block_is_free(s, n);
+		const real here = ((AT(close[n]) + AT(close[n])) + weight) * block_is_free(s, n);
 		ROLLED
 		for (int j = 0; j < BLOCK_HATS_MET; j++) {
-			STATE real *row = rows + ((int)v[BLOCK_HAT_FIRST] + j) * table.band - j;
+			STATE stored *row = rows + ((int)v[BLOCK_HAT_FIRST] + j) * table.band - j;
 			ROLLED
 			for (int i = j; i < BLOCK_HATS_MET; i++)
-				row[i] += (v[BLOCK_HAT_VALUE + j] * v[BLOCK_HAT_VALUE + i]) * here;
+				AT(row[i]) += (v[BLOCK_HAT_VALUE + j] * v[BLOCK_HAT_VALUE + i]) * here;
 		}
 	}
 }
@@ -163,11 +163,11 @@ SHARED_FUNCTION void block_end_hats(const block_state *s, int line, real part)
 	ROLLED
 	for (int hat = 0; hat < s->hats; hat++) {
 		const int n = line * s->hats + hat;
-		STATE real *row = whole.rows + n * whole.band;
-		row[0] += part * row[0];
+		STATE stored *row = whole.rows + n * whole.band;
+		AT(row[0]) += part * AT(row[0]);
 		for (int d = 0; d < BLOCK_HATS_MET; d++)
-			apart.rows[n * apart.band + d] = hat + d < s->hats ? row[d] : zero;
-		whole.way[n] = apart.way[n] = SPREAD(BLOCK_PIVOT_FLOOR) * row[0];
+			AT(apart.rows[n * apart.band + d]) = hat + d < s->hats ? AT(row[d]) : zero;
+		AT(whole.way[n]) = AT(apart.way[n]) = SPREAD(BLOCK_PIVOT_FLOOR) * AT(row[0]);
 	}
 }
 
@@ -178,7 +178,7 @@ SHARED_FUNCTION void block_factor_whole(const block_state *s)
 	ROLLED
 	for (int n = 0; n < whole.count; n++)
 		block_band_eliminate(whole, n, whole.count,
-		                     block_band_inverse(whole.rows[n * whole.band], whole.way[n]));
+		                     block_band_inverse(AT(whole.rows[n * whole.band]), AT(whole.way[n])));
 }
 
 /* Factors a line's rows of the lines apart. A hat without a pivot among all has none here. */
@@ -190,8 +190,8 @@ SHARED_FUNCTION void block_factor_apart(const block_state *s, int line)
 	const int end = (line + 1) * s->hats;
 	ROLLED
 	for (int n = line * s->hats; n < end; n++) {
-		const real inverse = block_band_inverse(apart.rows[n * apart.band], apart.way[n]);
-		const mask has = whole.rows[n * whole.band] > zero;
+		const real inverse = block_band_inverse(AT(apart.rows[n * apart.band]), AT(apart.way[n]));
+		const mask has = AT(whole.rows[n * whole.band]) > zero;
 		block_band_eliminate(apart, n, end, CHOOSE(has, inverse, zero));
 	}
 }
@@ -239,28 +239,28 @@ SHARED_FUNCTION void block_explore_hats(const block_state *s, block_stay stay)
 }
 
 /* Slopes along a line's hats. */
-SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, const STATE real *slopes)
+SHARED_FUNCTION void block_slope_hats(const block_state *s, int line, const STATE stored *slopes)
 {
-	STATE real *whole = block_hats_whole(s).way + line * s->hats;
-	STATE real *apart = block_hats_apart(s).way + line * s->hats;
+	STATE stored *whole = block_hats_whole(s).way + line * s->hats;
+	STATE stored *apart = block_hats_apart(s).way + line * s->hats;
 	ROLLED
 	for (int hat = 0; hat < s->hats; hat++)
-		whole[hat] = SPREAD(LITERAL(0.0));
+		AT(whole[hat]) = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int k = 0; k < s->length; k++) {
 		GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
 		const int n = line * s->length + k;
-		const real slope = slopes[n] * block_is_free(s, n);
+		const real slope = AT(slopes[n]) * block_is_free(s, n);
 		for (int j = 0; j < BLOCK_HATS_MET; j++)
-			whole[(int)v[BLOCK_HAT_FIRST] + j] += v[BLOCK_HAT_VALUE + j] * slope;
+			AT(whole[(int)v[BLOCK_HAT_FIRST] + j]) += v[BLOCK_HAT_VALUE + j] * slope;
 	}
 	ROLLED
 	for (int hat = 0; hat < s->hats; hat++)
-		apart[hat] = whole[hat];
+		AT(apart[hat]) = AT(whole[hat]);
 }
 
 /* The way of the hats beyond that of the lines. */
-SHARED_FUNCTION void block_choose_hats(const block_state *s, const STATE real *slopes)
+SHARED_FUNCTION void block_choose_hats(const block_state *s, const STATE stored *slopes)
 {
 	const block_band whole = block_hats_whole(s);
 	const block_band apart = block_hats_apart(s);
@@ -274,7 +274,7 @@ SHARED_FUNCTION void block_choose_hats(const block_state *s, const STATE real *s
 			block_band_solve(both ? apart : whole);
 		ROLLED
 		for (int n = 0; n < whole.count; n++)
-			whole.way[n] -= apart.way[n];
+			AT(whole.way[n]) -= AT(apart.way[n]);
 	}
 	WAIT;
 }
@@ -283,10 +283,10 @@ SHARED_FUNCTION void block_choose_hats(const block_state *s, const STATE real *s
 SHARED_FUNCTION real block_hats_beyond(const block_state *s, int line, int k)
 {
 	GLOBAL const scalar *v = s->hat_values + k * BLOCK_HAT_SIZE;
-	const STATE real *way = block_hats_whole(s).way + line * s->hats + (int)v[BLOCK_HAT_FIRST];
+	const STATE stored *way = block_hats_whole(s).way + line * s->hats + (int)v[BLOCK_HAT_FIRST];
 	real moved = SPREAD(LITERAL(0.0));
 	for (int j = 0; j < BLOCK_HATS_MET; j++)
-		moved += v[BLOCK_HAT_VALUE + j] * way[j];
+		moved += v[BLOCK_HAT_VALUE + j] * AT(way[j]);
 	return moved * block_is_free(s, line * s->length + k);
 }
 

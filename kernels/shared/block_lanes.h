@@ -15,10 +15,12 @@ typedef struct block_queue {
 } block_queue;
 
 typedef struct block_memory {
-	GLOBAL scalar *inputs; /* [search][BLOCK_INPUT_COUNT][nodes]; the end takes the start's place */
+	GLOBAL const scalar *inputs; /* [search][BLOCK_INPUT_COUNT][nodes] */
+	GLOBAL scalar *ends; /* [search][nodes], ends_apart one from the next; starts may be there */
+	int ends_apart;
 	GLOBAL const scalar *settings; /* [search][BLOCK_SETTING_COUNT] */
 	GLOBAL scalar *outcomes;       /* [search][BLOCK_OUTCOME_COUNT] */
-	LOCAL real *lanes;             /* [BLOCK_OUTCOME_COUNT] */
+	STATE stored *lanes;           /* [BLOCK_OUTCOME_COUNT] */
 } block_memory;
 
 /* Writes what the lanes marked in `leaves` came to. */
@@ -26,24 +28,22 @@ SHARED_FUNCTION void block_store(const block_state *s, const block_memory *m, co
                                  const int *leaves)
 {
 	const STATE scalar *y = (const STATE scalar *)block_array(s, BLOCK_INPUT_START);
-	const LOCAL scalar *told = (const LOCAL scalar *)m->lanes;
-	const int values = BLOCK_INPUT_COUNT * s->nodes;
+	const STATE scalar *told = (const STATE scalar *)m->lanes;
 	ROLLED
 	for (int lane = 0; lane < BATTEN_LANES; lane++) {
 		if (!leaves[lane])
 			continue;
-		GLOBAL scalar *to = m->inputs + (size_t)q->current[lane] * (size_t)values +
-		                    BLOCK_INPUT_START * s->nodes;
+		GLOBAL scalar *to = m->ends + (size_t)q->current[lane] * (size_t)m->ends_apart;
 		ROLLED
 		for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-			to[n] = y[n * BATTEN_LANES + lane];
+			to[n] = y[n * STORED_LANES + lane];
 	}
 	ROLLED
 	for (int lane = WORK_ITEM; lane < BATTEN_LANES; lane += WORK_ITEMS)
 		if (leaves[lane])
 			for (int v = 0; v < BLOCK_OUTCOME_COUNT; v++)
 				m->outcomes[(size_t)q->current[lane] * BLOCK_OUTCOME_COUNT + (size_t)v] =
-					told[v * BATTEN_LANES + lane];
+					told[v * STORED_LANES + lane];
 }
 
 /* Puts searches into the lanes marked in `takes`. */
@@ -59,7 +59,7 @@ SHARED_FUNCTION void block_load(const block_state *s, const block_memory *m, con
 		GLOBAL const scalar *from = m->inputs + (size_t)q->current[lane] * (size_t)values;
 		ROLLED
 		for (int n = WORK_ITEM; n < values; n += WORK_ITEMS)
-			to[n * BATTEN_LANES + lane] = from[n];
+			to[n * STORED_LANES + lane] = from[n];
 	}
 }
 
@@ -67,23 +67,23 @@ SHARED_FUNCTION void block_load(const block_state *s, const block_memory *m, con
 SHARED_FUNCTION void block_settings(const block_memory *m, const block_queue *q,
                                     block_limits *limits)
 {
-	LOCAL scalar *told = (LOCAL scalar *)m->lanes;
+	STATE scalar *told = (STATE scalar *)m->lanes;
 	WAIT;
 	if (WORK_ITEM == 0) {
 		ROLLED
 		for (int lane = 0; lane < BATTEN_LANES; lane++)
 			for (int v = 0; v < BLOCK_SETTING_COUNT; v++)
-				told[v * BATTEN_LANES + lane] =
+				told[v * STORED_LANES + lane] =
 					q->current[lane] < 0
 						? LITERAL(1.0)
 						: m->settings[(size_t)q->current[lane] * BLOCK_SETTING_COUNT + (size_t)v];
 	}
 	WAIT;
-	limits->longest = m->lanes[BLOCK_SETTING_LONGEST];
-	limits->last_step = m->lanes[BLOCK_SETTING_LAST_STEP];
-	limits->far = m->lanes[BLOCK_SETTING_CURVATURE];
-	limits->fair = m->lanes[BLOCK_SETTING_FAIR];
-	limits->close = m->lanes[BLOCK_SETTING_CLOSE];
+	limits->longest = AT(m->lanes[BLOCK_SETTING_LONGEST]);
+	limits->last_step = AT(m->lanes[BLOCK_SETTING_LAST_STEP]);
+	limits->far = AT(m->lanes[BLOCK_SETTING_CURVATURE]);
+	limits->fair = AT(m->lanes[BLOCK_SETTING_FAIR]);
+	limits->close = AT(m->lanes[BLOCK_SETTING_CLOSE]);
 	WAIT;
 }
 
@@ -111,15 +111,15 @@ SHARED_FUNCTION void block_tell(const block_memory *m, const block_progress *p, 
 {
 	WAIT;
 	if (WORK_ITEM == 0) {
-		m->lanes[BLOCK_OUTCOME_START] = p->start;
-		m->lanes[BLOCK_OUTCOME_END] = p->objective;
-		m->lanes[BLOCK_OUTCOME_STEP] = p->step;
-		m->lanes[BLOCK_OUTCOME_CONVERGED] = p->converged;
-		m->lanes[BLOCK_OUTCOME_ITERATIONS] = p->iterations;
-		m->lanes[BLOCK_OUTCOME_MOVES] = p->moves;
-		m->lanes[BLOCK_OUTCOME_TRIALS] = p->trials;
-		m->lanes[BLOCK_OUTCOME_COUNT] = CHOOSE(finished, SPREAD(LITERAL(1.0)),
-		                                       SPREAD(LITERAL(0.0)));
+		AT(m->lanes[BLOCK_OUTCOME_START]) = p->start;
+		AT(m->lanes[BLOCK_OUTCOME_END]) = p->objective;
+		AT(m->lanes[BLOCK_OUTCOME_STEP]) = p->step;
+		AT(m->lanes[BLOCK_OUTCOME_CONVERGED]) = p->converged;
+		AT(m->lanes[BLOCK_OUTCOME_ITERATIONS]) = p->iterations;
+		AT(m->lanes[BLOCK_OUTCOME_MOVES]) = p->moves;
+		AT(m->lanes[BLOCK_OUTCOME_TRIALS]) = p->trials;
+		AT(m->lanes[BLOCK_OUTCOME_COUNT]) = CHOOSE(finished, SPREAD(LITERAL(1.0)),
+		                                           SPREAD(LITERAL(0.0)));
 	}
 	WAIT;
 }
@@ -130,9 +130,9 @@ SHARED_FUNCTION int block_change_lanes(const block_state *s, const block_memory 
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	int leaves[BATTEN_LANES], takes[BATTEN_LANES];
-	int any = 0, begun = 0;
+	int begun = 0;
 	block_tell(m, p, finished);
-	const LOCAL scalar *told = (const LOCAL scalar *)(m->lanes + BLOCK_OUTCOME_COUNT);
+	const STATE scalar *told = (const STATE scalar *)(m->lanes + BLOCK_OUTCOME_COUNT);
 	ROLLED
 	for (int lane = 0; lane < BATTEN_LANES; lane++)
 		leaves[lane] = told[lane] > LITERAL(0.0) && q->current[lane] >= 0;
@@ -144,26 +144,25 @@ SHARED_FUNCTION int block_change_lanes(const block_state *s, const block_memory 
 		takes[lane] = q->current[lane] < 0 && q->next < q->end;
 		if (takes[lane])
 			q->current[lane] = q->next++;
-		any |= q->current[lane] >= 0;
 		begun |= takes[lane];
 	}
 	WAIT;
 	if (begun)
 		block_load(s, m, q, takes);
 	if (WORK_ITEM == 0) {
-		LOCAL scalar *lanes = (LOCAL scalar *)m->lanes;
+		STATE scalar *lanes = (STATE scalar *)m->lanes;
 		ROLLED
 		for (int lane = 0; lane < BATTEN_LANES; lane++) {
 			lanes[lane] = takes[lane] ? LITERAL(1.0) : LITERAL(0.0);
-			lanes[BATTEN_LANES + lane] = q->current[lane] >= 0 ? LITERAL(1.0) : LITERAL(0.0);
+			lanes[STORED_LANES + lane] = q->current[lane] >= 0 ? LITERAL(1.0) : LITERAL(0.0);
 		}
 	}
 	WAIT;
-	block_begin(p, m->lanes[0] > zero, m->lanes[1] > zero,
+	block_begin(p, AT(m->lanes[0]) > zero, AT(m->lanes[1]) > zero,
 	            SPREAD(BLOCK_ROUNDS(s) > 0 ? LITERAL(1.0) : LITERAL(0.0)));
 	block_settings(m, q, limits);
 	block_arrive(s, begun, p->fresh > zero, limits->fair, limits->close);
-	return any;
+	return ANY_BESIDE(s, p->working > zero);
 }
 
 /* All searches of a group. */
@@ -176,7 +175,7 @@ SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, bloc
 	block_limits limits;
 	ROLLED
 	for (int n = WORK_ITEM; n < BLOCK_STATE_COUNT * s->nodes; n += WORK_ITEMS)
-		s->arrays[n] = zero;
+		AT(s->arrays[n]) = zero;
 	ROLLED
 	for (int lane = 0; lane < BATTEN_LANES; lane++)
 		q->current[lane] = -1;
@@ -194,7 +193,7 @@ SHARED_FUNCTION void block_run(const block_state *s, const block_memory *m, bloc
 			block_iterate(s, q->turns, limits, &p);
 			q->turns++;
 			finished = (p.converged > zero) | (p.iterations >= limit);
-		} while (!ANY(finished & (p.working > zero)));
+		} while (!ANY_BESIDE(s, finished & (p.working > zero)));
 	}
 }
 

@@ -99,12 +99,15 @@ enum {
 	BLOCK_PROBE_COUNT
 };
 
-/* Numbers of a search's state in one lane: arrays, probes of so many lines, hats. */
-#define BLOCK_STATE_NUMBERS(lines, length, hats, slots)                                            \
-	(BLOCK_STATE_COUNT * (lines) * (length) + BLOCK_PROBE_COUNT * (slots) * (length) +             \
-	 BLOCK_HAT_NUMBERS(lines, hats))
-
 /* Sums of a line, added up over the lines in their order. */
 enum { BLOCK_SUM_COUNT = 2 * BLOCK_MEMORY + 2 };
+
+/* What a lane tells the host, and whether it has finished. */
+enum { BLOCK_LANE_NUMBERS = BLOCK_OUTCOME_COUNT + 1 };
+
+/* Numbers of a search's state in one lane: arrays, probes of so many lines, hats, sums, what lanes say. */
+#define BLOCK_STATE_NUMBERS(lines, length, hats, slots)                                            \
+	(BLOCK_STATE_COUNT * (lines) * (length) + BLOCK_PROBE_COUNT * (slots) * (length) +             \
+	 BLOCK_HAT_NUMBERS(lines, hats) + BLOCK_SUM_COUNT * (lines) + BLOCK_LANE_NUMBERS)
 
 #endif

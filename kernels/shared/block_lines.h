@@ -11,15 +11,16 @@ typedef struct block_state {
 	int analytic;
 	int rounds; /* of an iteration (block_rounds.h); 0: one, bent by the moves remembered */
 	GLOBAL const scalar *across, *along; /* STENCIL_SIZE a line, a node of a line */
-	STATE real *arrays;                  /* [BLOCK_STATE_COUNT][nodes] */
-	STATE real *ring;                    /* [slots][length][BLOCK_PROBE_COUNT] */
-	LOCAL real *sums;                    /* [BLOCK_SUM_COUNT][lines] */
-	int hats;                            /* of a line (block_hats.h); 0: lines alone */
-	GLOBAL const scalar *hat_values;     /* BLOCK_HAT_SIZE a node of a line */
-	STATE real *hat_rows;                /* [BLOCK_HAT_NUMBERS(lines, hats)] */
+	STATE stored *arrays;                /* [BLOCK_STATE_COUNT][nodes] */
+	STATE stored *ring;                  /* [slots][length][BLOCK_PROBE_COUNT] */
+	STATE stored *sums;                  /* [BLOCK_SUM_COUNT][lines] */
+	LOCAL int *vote;
+	int hats;                        /* of a line (block_hats.h); 0: lines alone */
+	GLOBAL const scalar *hat_values; /* BLOCK_HAT_SIZE a node of a line */
+	STATE stored *hat_rows;          /* [BLOCK_HAT_NUMBERS(lines, hats)] */
 } block_state;
 
-SHARED_FUNCTION STATE real *block_array(const block_state *s, int array)
+SHARED_FUNCTION STATE stored *block_array(const block_state *s, int array)
 {
 	return s->arrays + array * s->nodes;
 }
@@ -37,14 +38,14 @@ typedef struct block_window {
 } block_window;
 
 /* Goes on to node k; the next one's differences are taken in. */
-SHARED_FUNCTION void block_walk(const block_state *s, STATE const real *y, int line, int k,
+SHARED_FUNCTION void block_walk(const block_state *s, STATE const stored *y, int line, int k,
                                 block_window *at)
 {
 	GLOBAL const scalar *w = s->across + line * STENCIL_SIZE;
-	const STATE real *next = y + (line * s->length + k + 1);
-	const real here = next[0];
-	const real aft = here - next[-s->length];
-	const real fore = next[s->length] - here;
+	const STATE stored *next = y + (line * s->length + k + 1);
+	const real here = AT(next[0]);
+	const real aft = here - AT(next[-s->length]);
+	const real fore = AT(next[s->length]) - here;
 	at->first_below = at->first_here;
 	at->first_here = at->first_above;
 	at->first_above = w[0] * aft + w[1] * fore;
@@ -56,7 +57,7 @@ SHARED_FUNCTION void block_walk(const block_state *s, STATE const real *y, int l
 }
 
 /* Stands before node 1 of a line. */
-SHARED_FUNCTION block_window block_window_at(const block_state *s, STATE const real *y, int line)
+SHARED_FUNCTION block_window block_window_at(const block_state *s, STATE const stored *y, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	block_window at = { zero, zero, zero, zero, zero, zero, zero, zero };
@@ -83,24 +84,24 @@ SHARED_FUNCTION int block_is_inside(int at, int count)
 	return at > 0 && at + 1 < count;
 }
 
-SHARED_FUNCTION real block_line_closeness(const block_state *s, STATE const real *y, int line)
+SHARED_FUNCTION real block_line_closeness(const block_state *s, STATE const stored *y, int line)
 {
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
-	const STATE real *target = block_array(s, BLOCK_INPUT_TARGET);
+	const STATE stored *close = block_array(s, BLOCK_INPUT_CLOSE);
+	const STATE stored *target = block_array(s, BLOCK_INPUT_TARGET);
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		const real off = y[n] - target[n];
-		sum += close[n] * (off * off);
+		const real off = AT(y[n]) - AT(target[n]);
+		sum += AT(close[n]) * (off * off);
 	}
 	return sum;
 }
 
 /* A line's part of the objective at y. */
-SHARED_FUNCTION real block_line_objective(const block_state *s, STATE const real *y, int line)
+SHARED_FUNCTION real block_line_objective(const block_state *s, STATE const stored *y, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
+	const STATE stored *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
 	real sum = block_line_closeness(s, y, line);
 	if (!block_is_inside(line, s->lines))
 		return sum;
@@ -108,31 +109,31 @@ SHARED_FUNCTION real block_line_objective(const block_state *s, STATE const real
 	ROLLED
 	for (int k = 1; k + 1 < s->length; k++) {
 		block_walk(s, y, line, k, &at);
-		const real energy = bend[k] * bending_density(block_slopes_at(s, &at, k));
-		sum += CHOOSE(bend[k] > zero, energy, zero);
+		const real energy = AT(bend[k]) * bending_density(block_slopes_at(s, &at, k));
+		sum += CHOOSE(AT(bend[k]) > zero, energy, zero);
 	}
 	return sum;
 }
 
 /* Where the probes of a line are kept, node by node. */
-SHARED_FUNCTION STATE real *block_ring(const block_state *s, int line)
+SHARED_FUNCTION STATE stored *block_ring(const block_state *s, int line)
 {
 	return s->ring + (line % s->slots) * s->length * BLOCK_PROBE_COUNT;
 }
 
-SHARED_FUNCTION void block_keep(STATE real *to, block_probes found)
+SHARED_FUNCTION void block_keep(STATE stored *to, block_probes found)
 {
-	to[BLOCK_PROBE_P] = found.p;
-	to[BLOCK_PROBE_Q] = found.q;
-	to[BLOCK_PROBE_R] = found.r;
-	to[BLOCK_PROBE_S] = found.s;
-	to[BLOCK_PROBE_T] = found.t;
-	to[BLOCK_PROBE_RR] = found.rr;
-	to[BLOCK_PROBE_SS] = found.ss;
-	to[BLOCK_PROBE_TT] = found.tt;
-	to[BLOCK_PROBE_RS] = found.rs;
-	to[BLOCK_PROBE_RT] = found.rt;
-	to[BLOCK_PROBE_ST] = found.st;
+	AT(to[BLOCK_PROBE_P]) = found.p;
+	AT(to[BLOCK_PROBE_Q]) = found.q;
+	AT(to[BLOCK_PROBE_R]) = found.r;
+	AT(to[BLOCK_PROBE_S]) = found.s;
+	AT(to[BLOCK_PROBE_T]) = found.t;
+	AT(to[BLOCK_PROBE_RR]) = found.rr;
+	AT(to[BLOCK_PROBE_SS]) = found.ss;
+	AT(to[BLOCK_PROBE_TT]) = found.tt;
+	AT(to[BLOCK_PROBE_RS]) = found.rs;
+	AT(to[BLOCK_PROBE_RT]) = found.rt;
+	AT(to[BLOCK_PROBE_ST]) = found.st;
 }
 
 /* Derivatives at a node without an energy, which may be anything, as 0: what is probed there is then
@@ -153,23 +154,24 @@ SHARED_FUNCTION node_slopes block_slopes_where(mask has, node_slopes at)
 SHARED_FUNCTION real block_probe_line(const block_state *s, int line, real far, real part)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *y = block_array(s, BLOCK_INPUT_START);
-	const STATE real *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
+	const STATE stored *y = block_array(s, BLOCK_INPUT_START);
+	const STATE stored *bend = block_array(s, BLOCK_INPUT_BEND) + line * s->length;
 	real sum = block_line_closeness(s, y, line);
 	if (!block_is_inside(line, s->lines))
 		return sum;
 	block_window window = block_window_at(s, y, line);
-	STATE real *ring = block_ring(s, line);
+	STATE stored *ring = block_ring(s, line);
 	ROLLED
 	for (int k = 1; k + 1 < s->length; k++) {
 		block_walk(s, y, line, k, &window);
-		const node_slopes at = block_slopes_where(bend[k] > zero, block_slopes_at(s, &window, k));
-		block_probes found = BLOCK_ANALYTIC ? block_derive(at, bend[k])
-		                                    : block_probe(at, far, bend[k]);
+		const node_slopes at = block_slopes_where(AT(bend[k]) > zero,
+		                                          block_slopes_at(s, &window, k));
+		block_probes found = BLOCK_ANALYTIC ? block_derive(at, AT(bend[k]))
+		                                    : block_probe(at, far, AT(bend[k]));
 		found.p *= part;
 		found.q *= part;
 		block_keep(ring + k * BLOCK_PROBE_COUNT, found);
-		sum += bend[k] * found.value;
+		sum += AT(bend[k]) * found.value;
 	}
 	return sum;
 }
@@ -194,7 +196,7 @@ typedef struct block_across {
 /* What a line's offsets weigh in the derivatives across at one of three lines of nodes, and the probes
  * there; NULL where that line has none. */
 typedef struct block_side {
-	const STATE real *probes;
+	const STATE stored *probes;
 	scalar first, second, square, both, bend; /* weights, their products: first^2, both, second^2 */
 } block_side;
 
@@ -202,7 +204,7 @@ SHARED_FUNCTION block_side block_side_of(const block_state *s, int line, scalar 
                                          scalar second)
 {
 	block_side side;
-	side.probes = block_is_inside(line, s->lines) ? block_ring(s, line) : (const STATE real *)0;
+	side.probes = block_is_inside(line, s->lines) ? block_ring(s, line) : (const STATE stored *)0;
 	side.first = first;
 	side.second = second;
 	side.square = first * first;
@@ -232,12 +234,12 @@ SHARED_FUNCTION void block_add_across(block_across *t, const block_side *side, i
 {
 	if (!side->probes)
 		return;
-	const STATE real *probes = side->probes + k * BLOCK_PROBE_COUNT;
-	t->here += side->second * probes[BLOCK_PROBE_R] + side->first * probes[BLOCK_PROBE_P];
-	t->mixed += side->first * probes[BLOCK_PROBE_S];
-	t->rr += side->bend * probes[BLOCK_PROBE_RR];
-	t->rs += side->both * probes[BLOCK_PROBE_RS];
-	t->ss += side->square * probes[BLOCK_PROBE_SS];
+	const STATE stored *probes = side->probes + k * BLOCK_PROBE_COUNT;
+	t->here += side->second * AT(probes[BLOCK_PROBE_R]) + side->first * AT(probes[BLOCK_PROBE_P]);
+	t->mixed += side->first * AT(probes[BLOCK_PROBE_S]);
+	t->rr += side->bend * AT(probes[BLOCK_PROBE_RR]);
+	t->rs += side->both * AT(probes[BLOCK_PROBE_RS]);
+	t->ss += side->square * AT(probes[BLOCK_PROBE_SS]);
 }
 
 SHARED_FUNCTION block_across block_across_at(const block_sides *sides, int k)
@@ -246,12 +248,12 @@ SHARED_FUNCTION block_across block_across_at(const block_sides *sides, int k)
 	block_across t = { zero, zero, zero, zero, zero, zero, zero, zero, zero };
 	block_add_across(&t, &sides->own, k);
 	if (sides->own.probes) {
-		const STATE real *probes = sides->own.probes + k * BLOCK_PROBE_COUNT;
-		t.mixed += probes[BLOCK_PROBE_Q];
-		t.second = probes[BLOCK_PROBE_T];
-		t.rt = sides->own.second * probes[BLOCK_PROBE_RT];
-		t.st = sides->own.first * probes[BLOCK_PROBE_ST];
-		t.tt = probes[BLOCK_PROBE_TT];
+		const STATE stored *probes = sides->own.probes + k * BLOCK_PROBE_COUNT;
+		t.mixed += AT(probes[BLOCK_PROBE_Q]);
+		t.second = AT(probes[BLOCK_PROBE_T]);
+		t.rt = sides->own.second * AT(probes[BLOCK_PROBE_RT]);
+		t.st = sides->own.first * AT(probes[BLOCK_PROBE_ST]);
+		t.tt = AT(probes[BLOCK_PROBE_TT]);
 	}
 	block_add_across(&t, &sides->aft, k);
 	block_add_across(&t, &sides->fore, k);

@@ -25,23 +25,23 @@ SHARED_FUNCTION void block_begin_rounds(const block_state *s, int line, block_st
 {
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		const real self = block_array(s, BLOCK_STATE_TRIAL)[n];
-		block_array(s, BLOCK_STATE_SELF)[n] = self + (stay.part * self + stay.weight);
-		block_array(s, BLOCK_STATE_NEXT)[n] = block_array(s, BLOCK_STATE_FACTOR_1)[n];
-		block_array(s, BLOCK_STATE_OVER)[n] = block_array(s, BLOCK_STATE_FACTOR_2)[n];
-		block_array(s, BLOCK_STATE_GOING)[n] = block_array(s, BLOCK_STATE_SLOPE)[n];
-		block_array(s, BLOCK_STATE_TRIAL)[n] = block_array(s, BLOCK_INPUT_START)[n];
+		const real self = AT(block_array(s, BLOCK_STATE_TRIAL)[n]);
+		AT(block_array(s, BLOCK_STATE_SELF)[n]) = self + (stay.part * self + stay.weight);
+		AT(block_array(s, BLOCK_STATE_NEXT)[n]) = AT(block_array(s, BLOCK_STATE_FACTOR_1)[n]);
+		AT(block_array(s, BLOCK_STATE_OVER)[n]) = AT(block_array(s, BLOCK_STATE_FACTOR_2)[n]);
+		AT(block_array(s, BLOCK_STATE_GOING)[n]) = AT(block_array(s, BLOCK_STATE_SLOPE)[n]);
+		AT(block_array(s, BLOCK_STATE_TRIAL)[n]) = AT(block_array(s, BLOCK_INPUT_START)[n]);
 	}
 }
 
 /* Hats leave the box to the trial. */
 SHARED_FUNCTION real block_round_end(const block_state *s, int n, real step)
 {
-	const real place = block_array(s, BLOCK_STATE_TRIAL)[n];
+	const real place = AT(block_array(s, BLOCK_STATE_TRIAL)[n]);
 	if (s->hats > 0)
 		return place + step;
-	return move_clamped(place, step, block_array(s, BLOCK_INPUT_LOWER)[n],
-	                    block_array(s, BLOCK_INPUT_UPPER)[n]);
+	return move_clamped(place, step, AT(block_array(s, BLOCK_INPUT_LOWER)[n]),
+	                    AT(block_array(s, BLOCK_INPUT_UPPER)[n]));
 }
 
 /* The step of a line, and where it ends in place of the bottom; offsets that the box stops, slope . step, and
@@ -49,26 +49,26 @@ SHARED_FUNCTION real block_round_end(const block_state *s, int n, real step)
 SHARED_FUNCTION void block_step_line(const block_state *s, int line, real share, real weight)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *going = block_array(s, BLOCK_STATE_GOING);
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
-	const STATE real *place = block_array(s, BLOCK_STATE_TRIAL);
-	STATE real *bottom = block_array(s, BLOCK_STATE_BOTTOM);
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *going = block_array(s, BLOCK_STATE_GOING);
+	const STATE stored *close = block_array(s, BLOCK_INPUT_CLOSE);
+	const STATE stored *place = block_array(s, BLOCK_STATE_TRIAL);
+	STATE stored *bottom = block_array(s, BLOCK_STATE_BOTTOM);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	real stopped = zero, fall = zero, square = zero;
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		const real wanted = CHOOSE(share > zero, share * way[n], zero) - bottom[n];
+		const real wanted = CHOOSE(share > zero, share * AT(way[n]), zero) - AT(bottom[n]);
 		const real end = block_round_end(s, n, wanted);
-		const real step = end - place[n];
-		stopped += CHOOSE(end != place[n] + wanted, SPREAD(LITERAL(1.0)), zero);
-		fall += going[n] * step;
-		square += ((close[n] + close[n]) + weight) * (step * step);
-		bottom[n] = end;
-		way[n] = step;
+		const real step = end - AT(place[n]);
+		stopped += CHOOSE(end != AT(place[n]) + wanted, SPREAD(LITERAL(1.0)), zero);
+		fall += AT(going[n]) * step;
+		square += ((AT(close[n]) + AT(close[n])) + weight) * (step * step);
+		AT(bottom[n]) = end;
+		AT(way[n]) = step;
 	}
-	s->sums[s->lines + line] = stopped;
-	s->sums[2 * s->lines + line] = fall;
-	s->sums[3 * s->lines + line] = square;
+	AT(s->sums[s->lines + line]) = stopped;
+	AT(s->sums[2 * s->lines + line]) = fall;
+	AT(s->sums[3 * s->lines + line]) = square;
 }
 
 /* What the step bends at the nodes of a line, in place of the slopes probed there, and what that comes to
@@ -77,28 +77,28 @@ SHARED_FUNCTION void block_bend_line(const block_state *s, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	real square = zero;
-	s->sums[4 * s->lines + line] = zero;
+	AT(s->sums[4 * s->lines + line]) = zero;
 	if (!block_is_inside(line, s->lines))
 		return;
-	const STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	block_window window = block_window_at(s, way, line);
 	ROLLED
 	for (int k = 1; k + 1 < s->length; k++) {
-		STATE real *probes = block_ring(s, line) + k * BLOCK_PROBE_COUNT;
+		STATE stored *probes = block_ring(s, line) + k * BLOCK_PROBE_COUNT;
 		block_walk(s, way, line, k, &window);
 		const node_slopes d = block_slopes_at(s, &window, k);
-		const real r = (probes[BLOCK_PROBE_RR] * d.y_xx + probes[BLOCK_PROBE_RS] * d.y_xz) +
-		               probes[BLOCK_PROBE_RT] * d.y_zz;
-		const real m = (probes[BLOCK_PROBE_RS] * d.y_xx + probes[BLOCK_PROBE_SS] * d.y_xz) +
-		               probes[BLOCK_PROBE_ST] * d.y_zz;
-		const real t = (probes[BLOCK_PROBE_RT] * d.y_xx + probes[BLOCK_PROBE_ST] * d.y_xz) +
-		               probes[BLOCK_PROBE_TT] * d.y_zz;
+		const real r = (AT(probes[BLOCK_PROBE_RR]) * d.y_xx + AT(probes[BLOCK_PROBE_RS]) * d.y_xz) +
+		               AT(probes[BLOCK_PROBE_RT]) * d.y_zz;
+		const real m = (AT(probes[BLOCK_PROBE_RS]) * d.y_xx + AT(probes[BLOCK_PROBE_SS]) * d.y_xz) +
+		               AT(probes[BLOCK_PROBE_ST]) * d.y_zz;
+		const real t = (AT(probes[BLOCK_PROBE_RT]) * d.y_xx + AT(probes[BLOCK_PROBE_ST]) * d.y_xz) +
+		               AT(probes[BLOCK_PROBE_TT]) * d.y_zz;
 		square += (r * d.y_xx + m * d.y_xz) + t * d.y_zz;
-		probes[BLOCK_PROBE_R] = r;
-		probes[BLOCK_PROBE_S] = m;
-		probes[BLOCK_PROBE_T] = t;
+		AT(probes[BLOCK_PROBE_R]) = r;
+		AT(probes[BLOCK_PROBE_S]) = m;
+		AT(probes[BLOCK_PROBE_T]) = t;
 	}
-	s->sums[4 * s->lines + line] = square;
+	AT(s->sums[4 * s->lines + line]) = square;
 }
 
 /* What the step bends at node k of a line and of those beside it, as the offsets below, at and above it feel it. */
@@ -117,11 +117,11 @@ SHARED_FUNCTION block_pull block_pull_at(const block_state *s, const block_sides
 	real here = zero, mixed = zero, second = zero;
 	for (int i = 0; i < 3; i++)
 		if (each[i]->probes) {
-			const STATE real *bent = each[i]->probes + k * BLOCK_PROBE_COUNT;
-			here += each[i]->second * bent[BLOCK_PROBE_R];
-			mixed += each[i]->first * bent[BLOCK_PROBE_S];
+			const STATE stored *bent = each[i]->probes + k * BLOCK_PROBE_COUNT;
+			here += each[i]->second * AT(bent[BLOCK_PROBE_R]);
+			mixed += each[i]->first * AT(bent[BLOCK_PROBE_S]);
 			if (i == 0)
-				second = bent[BLOCK_PROBE_T];
+				second = AT(bent[BLOCK_PROBE_T]);
 		}
 	pull.below = w[2] * second - w[0] * mixed;
 	pull.here = here + ((w[0] - w[1]) * mixed - (w[2] + w[3]) * second);
@@ -132,8 +132,8 @@ SHARED_FUNCTION block_pull block_pull_at(const block_state *s, const block_sides
 /* Where the part of its step takes an offset. */
 SHARED_FUNCTION real block_round_place(const block_state *s, int n, real part)
 {
-	const real end = block_array(s, BLOCK_STATE_BOTTOM)[n];
-	const real there = block_round_end(s, n, part * block_array(s, BLOCK_STATE_WAY)[n]);
+	const real end = AT(block_array(s, BLOCK_STATE_BOTTOM)[n]);
+	const real there = block_round_end(s, n, part * AT(block_array(s, BLOCK_STATE_WAY)[n]));
 	return CHOOSE(part == SPREAD(LITERAL(1.0)), end, there);
 }
 
@@ -141,17 +141,17 @@ SHARED_FUNCTION real block_round_place(const block_state *s, int n, real part)
 SHARED_FUNCTION real block_hold_again(const block_state *s, int n)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const real slope = block_array(s, BLOCK_STATE_GOING)[n];
-	const real place = block_array(s, BLOCK_STATE_TRIAL)[n];
-	const real self = block_array(s, BLOCK_STATE_SELF)[n];
-	STATE real *kept = block_array(s, BLOCK_STATE_INVERSE) + n;
-	const mask down = (place > block_array(s, BLOCK_INPUT_LOWER)[n]) & (slope >= zero);
-	const mask up = (place < block_array(s, BLOCK_INPUT_UPPER)[n]) & (slope <= zero);
+	const real slope = AT(block_array(s, BLOCK_STATE_GOING)[n]);
+	const real place = AT(block_array(s, BLOCK_STATE_TRIAL)[n]);
+	const real self = AT(block_array(s, BLOCK_STATE_SELF)[n]);
+	STATE stored *kept = block_array(s, BLOCK_STATE_INVERSE) + n;
+	const mask down = (place > AT(block_array(s, BLOCK_INPUT_LOWER)[n])) & (slope >= zero);
+	const mask up = (place < AT(block_array(s, BLOCK_INPUT_UPPER)[n])) & (slope <= zero);
 	const mask is_free = (self > zero) & (down | up);
-	const mask differs = is_free != (*kept > zero);
-	*kept = CHOOSE(is_free, self, zero);
-	block_array(s, BLOCK_STATE_FACTOR_1)[n] = block_array(s, BLOCK_STATE_NEXT)[n];
-	block_array(s, BLOCK_STATE_FACTOR_2)[n] = block_array(s, BLOCK_STATE_OVER)[n];
+	const mask differs = is_free != (AT(*kept) > zero);
+	AT(*kept) = CHOOSE(is_free, self, zero);
+	AT(block_array(s, BLOCK_STATE_FACTOR_1)[n]) = AT(block_array(s, BLOCK_STATE_NEXT)[n]);
+	AT(block_array(s, BLOCK_STATE_FACTOR_2)[n]) = AT(block_array(s, BLOCK_STATE_OVER)[n]);
 	return CHOOSE(differs, SPREAD(LITERAL(1.0)), zero);
 }
 
@@ -160,24 +160,25 @@ SHARED_FUNCTION real block_hold_again(const block_state *s, int n)
 SHARED_FUNCTION void block_go_line(const block_state *s, int line, real part, real weight)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *close = block_array(s, BLOCK_INPUT_CLOSE);
-	const STATE real *way = block_array(s, BLOCK_STATE_WAY);
-	STATE real *going = block_array(s, BLOCK_STATE_GOING);
+	const STATE stored *close = block_array(s, BLOCK_INPUT_CLOSE);
+	const STATE stored *way = block_array(s, BLOCK_STATE_WAY);
+	STATE stored *going = block_array(s, BLOCK_STATE_GOING);
 	const block_sides sides = block_sides_of(s, line);
 	real here = zero, above = zero, changed = zero;
 	ROLLED
 	for (int k = 1; k <= s->length; k++) {
 		const block_pull pull = block_pull_at(s, &sides, k);
 		const int n = line * s->length + k - 1;
-		const real bends = (here + pull.below) + ((close[n] + close[n]) + weight) * way[n];
-		going[n] += part * bends;
-		block_array(s, BLOCK_STATE_TRIAL)[n] = block_round_place(s, n, part);
+		const real bends = (here + pull.below) +
+		                   ((AT(close[n]) + AT(close[n])) + weight) * AT(way[n]);
+		AT(going[n]) += part * bends;
+		AT(block_array(s, BLOCK_STATE_TRIAL)[n]) = block_round_place(s, n, part);
 		if (s->hats == 0)
 			changed += block_hold_again(s, n);
 		here = above + pull.here;
 		above = pull.above;
 	}
-	s->sums[5 * s->lines + line] = changed;
+	AT(s->sums[5 * s->lines + line]) = changed;
 }
 
 /* The bottom of a line's parabola, and what the hats have beyond it, from the slopes as they are;
@@ -185,22 +186,22 @@ SHARED_FUNCTION void block_go_line(const block_state *s, int line, real part, re
 SHARED_FUNCTION void block_bottom_line(const block_state *s, int line)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *going = block_array(s, BLOCK_STATE_GOING);
-	STATE real *bottom = block_array(s, BLOCK_STATE_BOTTOM);
+	const STATE stored *going = block_array(s, BLOCK_STATE_GOING);
+	STATE stored *bottom = block_array(s, BLOCK_STATE_BOTTOM);
 	const int first = line * s->length;
 	block_carry forth = { zero, zero }, back = { zero, zero };
 	real steep = zero;
 	ROLLED
 	for (int n = first; n < first + s->length; n++)
-		bottom[n] = block_solve_forth(s, n, going[n], &forth);
+		AT(bottom[n]) = block_solve_forth(s, n, AT(going[n]), &forth);
 	ROLLED
 	for (int n = first + s->length - 1; n >= first; n--) {
-		const real own = block_solve_back(s, n, bottom[n], &back);
+		const real own = block_solve_back(s, n, AT(bottom[n]), &back);
 		const real whole = s->hats == 0 ? own : own + block_hats_beyond(s, line, n - first);
-		steep += going[n] * whole;
-		bottom[n] = whole;
+		steep += AT(going[n]) * whole;
+		AT(bottom[n]) = whole;
 	}
-	s->sums[line] = steep;
+	AT(s->sums[line]) = steep;
 }
 
 /* All lines go on. Where offsets may be held anew their tables are factored, and lines look for their bottom, at
@@ -290,22 +291,22 @@ SHARED_FUNCTION void block_round_step(const block_state *s, real share, real wei
 SHARED_FUNCTION void block_sum_line(const block_state *s, int line, real part)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *y = block_array(s, BLOCK_INPUT_START);
-	const STATE real *slope = block_array(s, BLOCK_STATE_SLOPE);
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *y = block_array(s, BLOCK_INPUT_START);
+	const STATE stored *slope = block_array(s, BLOCK_STATE_SLOPE);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	real longest = zero, fall = zero, square = zero;
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		const real whole = block_round_place(s, n, part) - y[n];
+		const real whole = block_round_place(s, n, part) - AT(y[n]);
 		const real size = CHOOSE(whole < zero, -whole, whole);
 		longest = CHOOSE(size > longest, size, longest);
-		way[n] = whole;
-		fall -= slope[n] * whole;
+		AT(way[n]) = whole;
+		fall -= AT(slope[n]) * whole;
 		square += whole * whole;
 	}
-	s->sums[line] = longest;
-	s->sums[s->lines + line] = fall;
-	s->sums[2 * s->lines + line] = square;
+	AT(s->sums[line]) = longest;
+	AT(s->sums[s->lines + line]) = fall;
+	AT(s->sums[2 * s->lines + line]) = square;
 }
 
 /* Leaves the way of all rounds. */

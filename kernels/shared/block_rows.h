@@ -27,9 +27,9 @@ SHARED_FUNCTION int block_slot(int turn, int age)
 SHARED_FUNCTION real block_slope_left(const block_state *s, int n, int turn, const real *alpha)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	real left = block_array(s, BLOCK_STATE_SLOPE)[n];
+	real left = AT(block_array(s, BLOCK_STATE_SLOPE)[n]);
 	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		const real change = block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n];
+		const real change = AT(block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n]);
 		left -= CHOOSE(alpha[m] != zero, alpha[m] * change, zero);
 	}
 	return left;
@@ -48,7 +48,7 @@ SHARED_FUNCTION real block_total(const block_state *s, int sum)
 	real total = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int line = 0; line < s->lines; line++)
-		total += s->sums[sum * s->lines + line];
+		total += AT(s->sums[sum * s->lines + line]);
 	return total;
 }
 
@@ -57,7 +57,7 @@ SHARED_FUNCTION real block_most(const block_state *s, int sum)
 	real most = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int line = 0; line < s->lines; line++) {
-		const real value = s->sums[sum * s->lines + line];
+		const real value = AT(s->sums[sum * s->lines + line]);
 		most = CHOOSE(value > most, value, most);
 	}
 	return most;
@@ -77,10 +77,10 @@ SHARED_FUNCTION block_products block_products_none(void)
 SHARED_FUNCTION void block_products_tell(const block_state *s, int line, const block_products *sums)
 {
 	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		s->sums[m * s->lines + line] = sums->slope[m];
-		s->sums[(BLOCK_MEMORY + m) * s->lines + line] = sums->change[m];
+		AT(s->sums[m * s->lines + line]) = sums->slope[m];
+		AT(s->sums[(BLOCK_MEMORY + m) * s->lines + line]) = sums->change[m];
 	}
-	s->sums[2 * BLOCK_MEMORY * s->lines + line] = sums->changed;
+	AT(s->sums[2 * BLOCK_MEMORY * s->lines + line]) = sums->changed;
 }
 
 /* Takes the slope and the diagonal of row n: the bounds, the weight of staying, the change of the slope. Leaves
@@ -89,23 +89,23 @@ SHARED_FUNCTION mask block_settle_row(const block_state *s, int n, int turn, blo
                                       real slope_here, real diagonal, block_products *sums)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const real y = block_array(s, BLOCK_INPUT_START)[n];
-	const real lower = block_array(s, BLOCK_INPUT_LOWER)[n];
-	const real upper = block_array(s, BLOCK_INPUT_UPPER)[n];
+	const real y = AT(block_array(s, BLOCK_INPUT_START)[n]);
+	const real lower = AT(block_array(s, BLOCK_INPUT_LOWER)[n]);
+	const real upper = AT(block_array(s, BLOCK_INPUT_UPPER)[n]);
 	const mask down = (y > lower) & (slope_here >= zero);
 	const mask up = (y < upper) & (slope_here <= zero);
 	const mask is_free = (diagonal > zero) & (down | up);
 	const real raised = diagonal + (stay.part * diagonal + stay.weight);
-	STATE real *slope = block_array(s, BLOCK_STATE_SLOPE) + n;
-	const real change = slope_here - *slope;
-	STATE real *self = block_array(s, BLOCK_STATE_INVERSE) + n;
-	const mask differs = is_free != (*self > zero);
+	STATE stored *slope = block_array(s, BLOCK_STATE_SLOPE) + n;
+	const real change = slope_here - AT(*slope);
+	STATE stored *self = block_array(s, BLOCK_STATE_INVERSE) + n;
+	const mask differs = is_free != (AT(*self) > zero);
 	sums->changed += CHOOSE(differs, SPREAD(LITERAL(1.0)), zero);
-	*self = CHOOSE(is_free, raised, zero);
-	*slope = slope_here;
-	block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, 0))[n] = change;
+	AT(*self) = CHOOSE(is_free, raised, zero);
+	AT(*slope) = slope_here;
+	AT(block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, 0))[n]) = change;
 	for (int m = 0; m < BLOCK_MEMORY; m++) {
-		const real move = block_array(s, BLOCK_STATE_MOVE + block_slot(turn, m))[n];
+		const real move = AT(block_array(s, BLOCK_STATE_MOVE + block_slot(turn, m))[n]);
 		sums->slope[m] += move * slope_here;
 		sums->change[m] += move * change;
 	}

@@ -116,27 +116,27 @@ SHARED_FUNCTION void block_roll(const block_state *s, const block_progress *p, r
 SHARED_FUNCTION void block_way_line(const block_state *s, int line, int turn, const real *beta)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *inverse = block_array(s, BLOCK_STATE_INVERSE);
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
-	const STATE real *slope = block_array(s, BLOCK_STATE_SLOPE);
+	const STATE stored *inverse = block_array(s, BLOCK_STATE_INVERSE);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *slope = block_array(s, BLOCK_STATE_SLOPE);
 	real longest = zero, fall = zero, square = zero;
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		real bottom = way[n];
+		real bottom = AT(way[n]);
 		for (int m = 0; m < BLOCK_MEMORY; m++) {
-			const real move = block_array(s, BLOCK_STATE_MOVE + block_slot(turn, m))[n];
+			const real move = AT(block_array(s, BLOCK_STATE_MOVE + block_slot(turn, m))[n]);
 			bottom += CHOOSE(beta[m] != zero, beta[m] * move, zero);
 		}
-		bottom = CHOOSE(inverse[n] > zero, -bottom, zero);
+		bottom = CHOOSE(AT(inverse[n]) > zero, -bottom, zero);
 		const real size = CHOOSE(bottom < zero, -bottom, bottom);
 		longest = CHOOSE(size > longest, size, longest);
-		way[n] = bottom;
-		fall -= slope[n] * bottom;
+		AT(way[n]) = bottom;
+		fall -= AT(slope[n]) * bottom;
 		square += bottom * bottom;
 	}
-	s->sums[line] = longest;
-	s->sums[s->lines + line] = fall;
-	s->sums[2 * s->lines + line] = square;
+	AT(s->sums[line]) = longest;
+	AT(s->sums[s->lines + line]) = fall;
+	AT(s->sums[2 * s->lines + line]) = square;
 }
 
 /* The way of one round, bent by the moves remembered. */
@@ -180,23 +180,23 @@ SHARED_FUNCTION real block_choose_way(const block_state *s, int turn, block_prog
 SHARED_FUNCTION void block_trial_line(const block_state *s, int line, real part)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *y = block_array(s, BLOCK_INPUT_START);
-	const STATE real *way = block_array(s, BLOCK_STATE_WAY);
-	const STATE real *lower = block_array(s, BLOCK_INPUT_LOWER);
-	const STATE real *upper = block_array(s, BLOCK_INPUT_UPPER);
-	const STATE real *slope = block_array(s, BLOCK_STATE_SLOPE);
-	STATE real *trial = block_array(s, BLOCK_STATE_TRIAL);
+	const STATE stored *y = block_array(s, BLOCK_INPUT_START);
+	const STATE stored *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *lower = block_array(s, BLOCK_INPUT_LOWER);
+	const STATE stored *upper = block_array(s, BLOCK_INPUT_UPPER);
+	const STATE stored *slope = block_array(s, BLOCK_STATE_SLOPE);
+	STATE stored *trial = block_array(s, BLOCK_STATE_TRIAL);
 	real promise = zero, longest = zero;
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		trial[n] = move_clamped(y[n], part * way[n], lower[n], upper[n]);
-		const real moved = trial[n] - y[n];
+		AT(trial[n]) = move_clamped(AT(y[n]), part * AT(way[n]), AT(lower[n]), AT(upper[n]));
+		const real moved = AT(trial[n]) - AT(y[n]);
 		const real size = CHOOSE(moved < zero, -moved, moved);
-		promise += slope[n] * moved;
+		promise += AT(slope[n]) * moved;
 		longest = CHOOSE(size > longest, size, longest);
 	}
-	s->sums[line] = promise;
-	s->sums[s->lines + line] = longest;
+	AT(s->sums[line]) = promise;
+	AT(s->sums[s->lines + line]) = longest;
 }
 
 typedef struct block_trial {
@@ -221,13 +221,13 @@ SHARED_FUNCTION block_trial block_try(const block_state *s, real part)
 SHARED_FUNCTION void block_take(const block_state *s, int turn, mask gain)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	STATE real *y = block_array(s, BLOCK_INPUT_START);
-	STATE real *move = block_array(s, BLOCK_STATE_MOVE + block_slot(turn + 1, 0));
-	const STATE real *trial = block_array(s, BLOCK_STATE_TRIAL);
+	STATE stored *y = block_array(s, BLOCK_INPUT_START);
+	STATE stored *move = block_array(s, BLOCK_STATE_MOVE + block_slot(turn + 1, 0));
+	const STATE stored *trial = block_array(s, BLOCK_STATE_TRIAL);
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
-		move[n] = CHOOSE(gain, trial[n] - y[n], zero);
-		y[n] = CHOOSE(gain, trial[n], y[n]);
+		AT(move[n]) = CHOOSE(gain, AT(trial[n]) - AT(y[n]), zero);
+		AT(y[n]) = CHOOSE(gain, AT(trial[n]), AT(y[n]));
 	}
 	WAIT;
 }
@@ -283,7 +283,7 @@ SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
 		gain = gain | good;
 		trying = trying & (trial.objective >= p->objective - least_gain) &
 		         (trial.longest > middle * limits.last_step) & (p->fresh == zero);
-		if (!ANY(trying))
+		if (!ANY_BESIDE(s, trying))
 			break;
 		part = CHOOSE(trying, part * shorter, part);
 	}

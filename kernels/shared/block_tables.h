@@ -31,10 +31,10 @@ SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_factor 
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	STATE real *inverse = block_array(s, BLOCK_STATE_INVERSE) + n;
-	STATE real *factor_1 = block_array(s, BLOCK_STATE_FACTOR_1) + n;
-	STATE real *factor_2 = block_array(s, BLOCK_STATE_FACTOR_2) + n;
-	const real self = *inverse;
+	STATE stored *inverse = block_array(s, BLOCK_STATE_INVERSE) + n;
+	STATE stored *factor_1 = block_array(s, BLOCK_STATE_FACTOR_1) + n;
+	STATE stored *factor_2 = block_array(s, BLOCK_STATE_FACTOR_2) + n;
+	const real self = AT(*inverse);
 	const mask has = self > zero;
 	const real over = CHOOSE(has, f->over_2, zero);
 	const real next = CHOOSE(has, f->next - f->factor * over, zero);
@@ -45,12 +45,12 @@ SHARED_FUNCTION void block_factor_row(const block_state *s, int n, block_factor 
 	f->inverse_2 = f->inverse_1;
 	f->inverse_1 = CHOOSE(has, one / CHOOSE(has, sound, one), zero);
 	f->factor = by_1;
-	f->next = CHOOSE(has, *factor_1, zero);
+	f->next = CHOOSE(has, AT(*factor_1), zero);
 	f->over_2 = f->over_1;
-	f->over_1 = CHOOSE(has, *factor_2, zero);
-	*inverse = f->inverse_1;
-	*factor_1 = by_1;
-	*factor_2 = by_2;
+	f->over_1 = CHOOSE(has, AT(*factor_2), zero);
+	AT(*inverse) = f->inverse_1;
+	AT(*factor_1) = by_1;
+	AT(*factor_2) = by_2;
 }
 
 /* Factors the tables of `count` lines, at most BLOCK_TOGETHER, from `first` on, `apart` lines one from
@@ -85,14 +85,14 @@ SHARED_FUNCTION void block_finish_row(const block_state *s, int n, int turn, blo
                                       block_row row, block_products *sums)
 {
 	const real two = SPREAD(LITERAL(2.0));
-	const real y = block_array(s, BLOCK_INPUT_START)[n];
-	const real close = two * block_array(s, BLOCK_INPUT_CLOSE)[n];
+	const real y = AT(block_array(s, BLOCK_INPUT_START)[n]);
+	const real close = two * AT(block_array(s, BLOCK_INPUT_CLOSE)[n]);
 	row.self += close;
-	row.slope += close * (y - block_array(s, BLOCK_INPUT_TARGET)[n]);
+	row.slope += close * (y - AT(block_array(s, BLOCK_INPUT_TARGET)[n]));
 	(void)block_settle_row(s, n, turn, stay, row.slope, row.self, sums);
-	block_array(s, BLOCK_STATE_FACTOR_1)[n] = row.next;
-	block_array(s, BLOCK_STATE_FACTOR_2)[n] = row.over;
-	block_array(s, BLOCK_STATE_TRIAL)[n] = row.self;
+	AT(block_array(s, BLOCK_STATE_FACTOR_1)[n]) = row.next;
+	AT(block_array(s, BLOCK_STATE_FACTOR_2)[n]) = row.over;
+	AT(block_array(s, BLOCK_STATE_TRIAL)[n]) = row.self;
 }
 
 /* Slopes and the table of one line, whose probes and those beside it are in the ring. */
@@ -128,8 +128,8 @@ typedef struct block_carry {
 
 SHARED_FUNCTION real block_solve_forth(const block_state *s, int n, real slope, block_carry *c)
 {
-	const real z = (slope - block_array(s, BLOCK_STATE_FACTOR_2)[n] * c->two) -
-	               block_array(s, BLOCK_STATE_FACTOR_1)[n] * c->one;
+	const real z = (slope - AT(block_array(s, BLOCK_STATE_FACTOR_2)[n]) * c->two) -
+	               AT(block_array(s, BLOCK_STATE_FACTOR_1)[n]) * c->one;
 	c->two = c->one;
 	c->one = z;
 	return z;
@@ -137,19 +137,19 @@ SHARED_FUNCTION real block_solve_forth(const block_state *s, int n, real slope, 
 
 SHARED_FUNCTION real block_solve_back(const block_state *s, int n, real z, block_carry *c)
 {
-	const real bottom = z * block_array(s, BLOCK_STATE_INVERSE)[n] - c->one;
-	c->one = block_array(s, BLOCK_STATE_FACTOR_1)[n] * bottom + c->two;
-	c->two = block_array(s, BLOCK_STATE_FACTOR_2)[n] * bottom;
+	const real bottom = z * AT(block_array(s, BLOCK_STATE_INVERSE)[n]) - c->one;
+	c->one = AT(block_array(s, BLOCK_STATE_FACTOR_1)[n]) * bottom + c->two;
+	c->two = AT(block_array(s, BLOCK_STATE_FACTOR_2)[n]) * bottom;
 	return bottom;
 }
 
 /* The slopes of a line less the changes remembered, alpha of each, into its way. */
 SHARED_FUNCTION void block_lessen_line(const block_state *s, int line, int turn, const real *alpha)
 {
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++)
-		way[n] = block_slope_left(s, n, turn, alpha);
+		AT(way[n]) = block_slope_left(s, n, turn, alpha);
 }
 
 /* The bottom of the line's parabola with the slope less the changes remembered, alpha of each, and what
@@ -158,24 +158,24 @@ SHARED_FUNCTION void block_solve_line(const block_state *s, int line, int turn, 
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const int first = line * s->length;
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	block_carry forth = { zero, zero }, back = { zero, zero };
 	ROLLED
 	for (int n = first; n < first + s->length; n++)
-		way[n] = block_solve_forth(s, n, block_slope_left(s, n, turn, alpha), &forth);
+		AT(way[n]) = block_solve_forth(s, n, block_slope_left(s, n, turn, alpha), &forth);
 	real dot[BLOCK_MEMORY];
 	for (int m = 0; m < BLOCK_MEMORY; m++)
 		dot[m] = zero;
 	ROLLED
 	for (int n = first + s->length - 1; n >= first; n--) {
-		const real bottom = block_solve_back(s, n, way[n], &back);
+		const real bottom = block_solve_back(s, n, AT(way[n]), &back);
 		const real whole = s->hats == 0 ? bottom : bottom + block_hats_beyond(s, line, n - first);
-		way[n] = whole;
+		AT(way[n]) = whole;
 		for (int m = 0; m < BLOCK_MEMORY; m++)
-			dot[m] += whole * block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n];
+			dot[m] += whole * AT(block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n]);
 	}
 	for (int m = 0; m < BLOCK_MEMORY; m++)
-		s->sums[m * s->lines + line] = dot[m];
+		AT(s->sums[m * s->lines + line]) = dot[m];
 }
 
 #endif

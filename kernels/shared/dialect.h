@@ -11,6 +11,12 @@
  * there is but one). GLOBAL and LOCAL say where memory lies, STATE where the state
  * of a search does (local, or global where it is too large; defined by the host).
  *
+ *   stored   a real in a search's own memory; AT(one) is the number itself
+ *
+ * Where BATTEN_ABREAST is defined, a group works so many searches, one each of its work-items side by side, and what
+ * is stored of one lies beside the same of the next: a GPU reads what its work-items want at a time in one go. STATE
+ * is global then. Where the group has more work-items, each search is shared by as many.
+ *
  * A C compiler with vector types can compile kernels too, where the includer has spelled OpenCL C's words
  * in its own beforehand, SPREAD and what turn.h calls for among them (bench/c_vectors.h).
  *
@@ -93,16 +99,14 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #endif
 #define SHARED_FUNCTION static inline
 /* A number of global memory that is about to be read or written comes near: PoCL's prefetch() does
- * nothing. */
-#define FETCH(from) prefetch(from, 1)
-#define FETCH_TO_WRITE(to) ((void)(to))
-#if defined(__has_builtin)
-#if __has_builtin(__builtin_prefetch)
-#undef FETCH
-#undef FETCH_TO_WRITE
+ * nothing. BATTEN_PREFETCH, which the host may define: clang's word for it is known, and all memory is one
+ * space of addresses, as on a CPU. */
+#if defined(BATTEN_PREFETCH)
 #define FETCH(from) __builtin_prefetch((const void *)(size_t)(from), 0, 3)
 #define FETCH_TO_WRITE(to) __builtin_prefetch((const void *)(size_t)(to), 1, 3)
-#endif
+#else
+#define FETCH(from) prefetch(from, 1)
+#define FETCH_TO_WRITE(to) ((void)(to))
 #endif
 #define GLOBAL global
 #define LOCAL local
@@ -116,6 +120,40 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 
 #endif
 
+#if defined(BATTEN_ABREAST)
+#if BATTEN_LANES != 1
+#error "searches abreast have a lane each"
+#endif
+typedef struct stored {
+	real it[BATTEN_ABREAST];
+} stored;
+#define AT(a) ((a).it[0])
+#define STORED_LANES BATTEN_ABREAST
+#else
+typedef real stored;
+#define AT(a) (a)
+#define STORED_LANES BATTEN_LANES /* scalars from one stored to the next */
+#endif
+
+/* Where a search's own numbers are, so many, in the global memory of all of them, and in that of STATE.
+ * QUEUE_NUMBER: of those who work together, or of one who works alone. */
+#if defined(BATTEN_ABREAST)
+#define ABREAST_LANE (get_local_id(0) % BATTEN_ABREAST)
+#define QUEUE_NUMBER ((int)(get_group_id(0) * BATTEN_ABREAST + ABREAST_LANE))
+#define OWN_GLOBAL(memory, count)                                                                  \
+	((global stored *)((global real *)((global stored *)(memory) +                                 \
+	                                   get_group_id(0) * (size_t)(count)) +                        \
+	                   ABREAST_LANE))
+#else
+#define QUEUE_NUMBER ((int)get_group_id(0))
+#define OWN_GLOBAL(memory, count) ((memory) + get_group_id(0) * (size_t)(count))
+#endif
+#if defined(STATE_IS_GLOBAL)
+#define OWN_STATE(memory, count) OWN_GLOBAL(memory, count)
+#else
+#define OWN_STATE(memory, count) (memory)
+#endif
+
 /* Around barriers, though nobody waits at them, PoCL takes the kernel apart: three times the compiling. */
 #if defined(BATTEN_ALONE)
 #define ALONE 1
@@ -124,9 +162,33 @@ typedef BATTEN_PASTE(BATTEN_MASK_NAME, BATTEN_LANES) mask;
 #define WAIT ((void)0)
 #else
 #define ALONE 0
+#if defined(BATTEN_ABREAST)
+#define WORK_ITEM ((int)(get_local_id(0) / BATTEN_ABREAST))
+#define WORK_ITEMS ((int)(get_local_size(0) / BATTEN_ABREAST))
+#else
 #define WORK_ITEM ((int)get_local_id(0))
 #define WORK_ITEMS ((int)get_local_size(0))
+#endif
 #define WAIT barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
+#endif
+
+/* Whether a condition holds for any search that waits at the same barriers: a way past one must be all's. `s` has
+ * vote, LOCAL int *, one of the group. */
+#if defined(BATTEN_ABREAST) && !ALONE
+static inline int group_any(local int *vote, int condition)
+{
+	WAIT;
+	if (get_local_id(0) == 0)
+		*vote = 0;
+	WAIT;
+	if (condition)
+		*vote = 1;
+	WAIT;
+	return *vote;
+}
+#define ANY_BESIDE(s, condition) group_any((s)->vote, condition)
+#else
+#define ANY_BESIDE(s, condition) ANY(condition)
 #endif
 
 /* a * b + c rounded once. Correct on every device, so strict arithmetic may use it. */

@@ -30,10 +30,14 @@ typedef struct node_row {
 	real aft, here, fore;
 } node_row;
 
-/* The derivatives of y at a node. */
+/* The derivatives of y at a node, and as they are kept. */
 typedef struct node_slopes {
 	real y_x, y_z, y_xx, y_xz, y_zz;
 } node_slopes;
+
+typedef struct stored_slopes {
+	stored y_x, y_z, y_xx, y_xz, y_zz;
+} stored_slopes;
 
 SHARED_FUNCTION real stencil_first(scalar w0, scalar w1, real below, real here, real above)
 {

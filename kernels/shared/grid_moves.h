@@ -14,6 +14,22 @@
 #include "grid_state.h"
 #include "multilevel.h"
 
+SHARED_FUNCTION node_slopes slopes_kept(const STATE stored_slopes *kept)
+{
+	const node_slopes d = { AT(kept->y_x), AT(kept->y_z), AT(kept->y_xx), AT(kept->y_xz),
+		                    AT(kept->y_zz) };
+	return d;
+}
+
+SHARED_FUNCTION void slopes_put(STATE stored_slopes *kept, node_slopes d)
+{
+	AT(kept->y_x) = d.y_x;
+	AT(kept->y_z) = d.y_z;
+	AT(kept->y_xx) = d.y_xx;
+	AT(kept->y_xz) = d.y_xz;
+	AT(kept->y_zz) = d.y_zz;
+}
+
 /* ---- hats ---- */
 typedef struct search_move {
 	int station, waterline; /* centre */
@@ -52,10 +68,11 @@ SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move, i
 		ROLLED
 		for (int k = first_k; k <= last_k; k++, node += s->stride) {
 			const scalar height = height_x * hat_height(k - move->waterline, move->inverse_z);
-			const real from = kept ? s->trial[node] : s->y[node];
+			const real from = kept ? AT(s->trial[node]) : AT(s->y[node]);
 			if (!kept)
-				s->trial[node] = from;
-			s->y[node] = step_from(s, from, height * move->step, s->lower[node], s->upper[node]);
+				AT(s->trial[node]) = from;
+			AT(s->y[node]) = step_from(s, from, height * move->step, AT(s->lower[node]),
+			                           AT(s->upper[node]));
 		}
 	}
 }
@@ -63,9 +80,9 @@ SHARED_FUNCTION void hat_place(const search_state *s, const search_move *move, i
 /* What a node has of its own, at y. */
 SHARED_FUNCTION real node_own(const search_state *s, int node, real y)
 {
-	real own = node_closeness(s->close[node], y, s->target[node]);
+	real own = node_closeness(AT(s->close[node]), y, AT(s->target[node]));
 	if (GRID_PENALTY)
-		own += node_penalty(s->penalty, y, s->lower[node], s->upper[node]);
+		own += node_penalty(s->penalty, y, AT(s->lower[node]), AT(s->upper[node]));
 	return own;
 }
 
@@ -76,9 +93,9 @@ typedef struct row_slopes {
 
 SHARED_FUNCTION row_slopes row_of(const search_state *s, const scalar *x, int node)
 {
-	const real aft = s->y[node - 1];
-	const real here = s->y[node];
-	const real fore = s->y[node + 1];
+	const real aft = AT(s->y[node - 1]);
+	const real here = AT(s->y[node]);
+	const real fore = AT(s->y[node + 1]);
 	const row_slopes row = { here, stencil_first(x[0], x[1], aft, here, fore),
 		                     stencil_second(x[2], x[3], aft, here, fore) };
 	return row;
@@ -93,21 +110,21 @@ SHARED_FUNCTION real column_third_objective(const search_state *s, int station, 
 	ROLLED
 	for (int k = first_k; k <= last_k; k++) {
 		const int node = node_of(s, station, k);
-		const real term = node_energy(s->bend[node], third_fairness(s, s->y, station, k));
+		const real term = node_energy(AT(s->bend[node]), third_fairness(s, s->y, station, k));
 		if (keeps)
-			s->terms[node] = CHOOSE(moved, term, s->terms[node]);
-		sum += term + node_own(s, node, s->y[node]);
+			AT(s->terms[node]) = CHOOSE(moved, term, AT(s->terms[node]));
+		sum += term + node_own(s, node, AT(s->y[node]));
 	}
 	return sum;
 }
 
-SHARED_FUNCTION void slopes_keep(STATE node_slopes *kept, node_slopes d, mask moved)
+SHARED_FUNCTION void slopes_keep(STATE stored_slopes *kept, node_slopes d, mask moved)
 {
-	kept->y_x = CHOOSE(moved, d.y_x, kept->y_x);
-	kept->y_z = CHOOSE(moved, d.y_z, kept->y_z);
-	kept->y_xx = CHOOSE(moved, d.y_xx, kept->y_xx);
-	kept->y_xz = CHOOSE(moved, d.y_xz, kept->y_xz);
-	kept->y_zz = CHOOSE(moved, d.y_zz, kept->y_zz);
+	AT(kept->y_x) = CHOOSE(moved, d.y_x, AT(kept->y_x));
+	AT(kept->y_z) = CHOOSE(moved, d.y_z, AT(kept->y_z));
+	AT(kept->y_xx) = CHOOSE(moved, d.y_xx, AT(kept->y_xx));
+	AT(kept->y_xz) = CHOOSE(moved, d.y_xz, AT(kept->y_xz));
+	AT(kept->y_zz) = CHOOSE(moved, d.y_zz, AT(kept->y_zz));
 }
 
 SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k,
@@ -132,9 +149,10 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 			                    here.second,
 			                    stencil_first(z[0], z[1], below.first, here.first, above.first),
 			                    stencil_second(z[2], z[3], below.here, here.here, above.here) };
-		const real term = node_energy(s->bend[node], node_fairness(GRID_FAIRNESS, s->weights, d));
+		const real term = node_energy(AT(s->bend[node]),
+		                              node_fairness(GRID_FAIRNESS, s->weights, d));
 		if (keeps) {
-			s->terms[node] = CHOOSE(moved, term, s->terms[node]);
+			AT(s->terms[node]) = CHOOSE(moved, term, AT(s->terms[node]));
 			slopes_keep(s->slopes + node, d, moved);
 		}
 		sum += term + node_own(s, node, here.here);
@@ -182,9 +200,9 @@ SHARED_FUNCTION real hat_objective_before(const search_state *s, const hat_windo
 		int node = node_of(s, i, w->first_k);
 		ROLLED
 		for (int k = w->first_k; k <= w->last_k; k++, node += s->stride) {
-			column += s->terms[node];
+			column += AT(s->terms[node]);
 			if (owns)
-				column += node_own(s, node, s->y[node]);
+				column += node_own(s, node, AT(s->y[node]));
 		}
 		sum += column;
 	}
@@ -229,8 +247,8 @@ typedef struct thin_moves {
 SHARED_FUNCTION real thin_move(const search_state *s, const search_move *move, int node, int k)
 {
 	const scalar height = hat_height(k - move->waterline, move->inverse_z);
-	const real y = s->y[node];
-	return step_from(s, y, height * move->step, s->lower[node], s->upper[node]) - y;
+	const real y = AT(s->y[node]);
+	return step_from(s, y, height * move->step, AT(s->lower[node]), AT(s->upper[node])) - y;
 }
 
 /* What these do to the derivatives along z. */
@@ -246,11 +264,11 @@ SHARED_FUNCTION thin_change thin_change_of(GLOBAL const scalar *z, const thin_mo
 }
 
 /* The derivatives of a node aft (column 0), of (1) or forward (2) of the hat's station after its move. */
-SHARED_FUNCTION node_slopes thin_slopes(const STATE node_slopes *kept, const single_stencil *x,
+SHARED_FUNCTION node_slopes thin_slopes(const STATE stored_slopes *kept, const single_stencil *x,
                                         int column, real moved, thin_change change)
 {
 	const real first = SPREAD(x->first[column]);
-	node_slopes d = *kept;
+	node_slopes d = slopes_kept(kept);
 	d.y_x = PRODUCT_AND(first, moved, d.y_x);
 	d.y_xx = PRODUCT_AND(SPREAD(x->second[column]), moved, d.y_xx);
 	d.y_xz = PRODUCT_AND(first, change.first, d.y_xz);
@@ -266,8 +284,8 @@ SHARED_FUNCTION real thin_term(const search_state *s, const single_stencil *x, i
 {
 	const int at = node + column - 1;
 	const node_slopes d = thin_slopes(s->slopes + at, x, column, moved, change);
-	const real term = node_energy(s->bend[at], node_fairness(GRID_FAIRNESS, s->weights, d));
-	s->found[at] = term;
+	const real term = node_energy(AT(s->bend[at]), node_fairness(GRID_FAIRNESS, s->weights, d));
+	AT(s->found[at]) = term;
 	return term;
 }
 
@@ -288,7 +306,7 @@ SHARED_FUNCTION real thin_objective(const search_state *s, const search_move *mo
 		const real aft = thin_term(s, x, node, 0, m.here, change);
 		const real here = thin_term(s, x, node, 1, m.here, change);
 		const real fore = thin_term(s, x, node, 2, m.here, change);
-		sum += ((aft + here) + fore) + node_own(s, node, s->y[node] + m.here);
+		sum += ((aft + here) + fore) + node_own(s, node, AT(s->y[node]) + m.here);
 	}
 	return sum;
 }
@@ -310,10 +328,10 @@ SHARED_FUNCTION void thin_end(const search_state *s, const search_move *move, co
 		UNROLLED
 		for (int column = 0; column < 3; column++) {
 			const int at = node + column - 1;
-			s->slopes[at] = thin_slopes(s->slopes + at, x, column, m.here, change);
-			s->terms[at] = CHOOSE(taken, s->found[at], s->terms[at]);
+			slopes_put(s->slopes + at, thin_slopes(s->slopes + at, x, column, m.here, change));
+			AT(s->terms[at]) = CHOOSE(taken, AT(s->found[at]), AT(s->terms[at]));
 		}
-		s->y[node] += m.here;
+		AT(s->y[node]) += m.here;
 	}
 }
 
@@ -339,15 +357,15 @@ SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterl
 	o->node = node_of(s, station, waterline);
 	o->x = single_stencil_of(s->along_x, station, s->stations);
 	o->z = single_stencil_of(s->along_z, waterline, s->waterlines);
-	o->y = s->y[o->node];
-	o->lower = s->lower[o->node];
-	o->upper = s->upper[o->node];
-	o->target = s->target[o->node];
-	o->close = s->close[o->node];
+	o->y = AT(s->y[o->node]);
+	o->lower = AT(s->lower[o->node]);
+	o->upper = AT(s->upper[o->node]);
+	o->target = AT(s->target[o->node]);
+	o->close = AT(s->close[o->node]);
 	UNROLLED
 	for (int c = 0; c < 4; c++) {
-		const STATE node_slopes *d = s->slopes + single_node(s, o, c / 2 * 2, c % 2 * 2);
-		o->corner[c] = tangent_of(GRID_FAIRNESS, d->y_x, d->y_z);
+		const STATE stored_slopes *d = s->slopes + single_node(s, o, c / 2 * 2, c % 2 * 2);
+		o->corner[c] = tangent_of(GRID_FAIRNESS, AT(d->y_x), AT(d->y_z));
 	}
 }
 
@@ -355,7 +373,7 @@ SHARED_FUNCTION void single_begin(const search_state *s, int station, int waterl
 SHARED_FUNCTION node_slopes single_slopes(const search_state *s, const single_offset *o, int row,
                                           int column, real moved)
 {
-	node_slopes d = s->slopes[single_node(s, o, row, column)];
+	node_slopes d = slopes_kept(s->slopes + single_node(s, o, row, column));
 	d.y_xz = PRODUCT_AND(SPREAD(o->x.first[column] * o->z.first[row]), moved, d.y_xz);
 	if (row == 1) {
 		d.y_x = PRODUCT_AND(SPREAD(o->x.first[column]), moved, d.y_x);
@@ -375,7 +393,7 @@ SHARED_FUNCTION real single_corner(const search_state *s, const single_offset *o
 	const node_slopes d = single_slopes(s, o, row, column, moved);
 	const real fairness = fairness_of(GRID_FAIRNESS, s->weights, o->corner[row + column / 2],
 	                                  d.y_xx, d.y_xz, d.y_zz);
-	return node_energy(s->bend[single_node(s, o, row, column)], fairness);
+	return node_energy(AT(s->bend[single_node(s, o, row, column)]), fairness);
 }
 
 /* That of the other nodes. */
@@ -383,7 +401,7 @@ SHARED_FUNCTION real single_beside(const search_state *s, const single_offset *o
                                    int column, real moved)
 {
 	const node_slopes d = single_slopes(s, o, row, column, moved);
-	return node_energy(s->bend[single_node(s, o, row, column)],
+	return node_energy(AT(s->bend[single_node(s, o, row, column)]),
 	                   node_fairness(GRID_FAIRNESS, s->weights, d));
 }
 
@@ -410,10 +428,11 @@ SHARED_FUNCTION void single_end(const search_state *s, const single_offset *o, r
 		return;
 	const real y = step_from(s, o->y, step, o->lower, o->upper);
 	const real moved = y - o->y;
-	s->y[o->node] = y;
+	AT(s->y[o->node]) = y;
 	UNROLLED
 	for (int n = 0; n < 9; n++)
-		s->slopes[single_node(s, o, n / 3, n % 3)] = single_slopes(s, o, n / 3, n % 3, moved);
+		slopes_put(s->slopes + single_node(s, o, n / 3, n % 3),
+		           single_slopes(s, o, n / 3, n % 3, moved));
 }
 
 #endif

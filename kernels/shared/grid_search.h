@@ -24,7 +24,7 @@ SHARED_FUNCTION void search_slopes_clear(const search_state *s)
 	const node_slopes none = { zero, zero, zero, zero, zero };
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->slopes[n] = none;
+		slopes_put(s->slopes + n, none);
 }
 
 /* The level of a colour: all colours of the coarsest level first. */

@@ -19,14 +19,16 @@ typedef struct search_state {
 	int stations, waterlines, stride, nodes;
 	GLOBAL const scalar *along_x, *along_z;
 	GLOBAL const scalar *third_x, *third_z; /* STENCIL_THIRD a line each, of GRID_VARIATION */
-	STATE real *y, *base, *trial;
-	STATE real *terms, *found; /* the objective's at y; as a probe found them */
-	STATE real *ways;          /* of iterations before */
-	STATE node_slopes *slopes; /* derivatives at y, kept from move to move */
-	GLOBAL const real *lower, *upper, *target, *bend, *close;
+	STATE stored *y, *base, *trial;
+	STATE stored *terms, *found; /* the objective's at y; as a probe found them */
+	STATE stored *ways;          /* of iterations before */
+	STATE stored_slopes *slopes; /* derivatives at y, kept from move to move */
+	GLOBAL const stored *lower, *upper, *target, *bend, *close;
 	int level_count, colour_count, wide_colours; /* the rest is for those that work along hats */
 	GLOBAL const int *levels, *centres;
-	LOCAL real *lines; /* one sum a waterline */
+	STATE stored *lines;    /* one sum a waterline */
+	STATE stored *gathered; /* two numbers a work-item */
+	LOCAL int *vote;
 	grid_weights weights;
 	real wide_probes;
 	real penalty;  /* r of GRID_PENALTY */
@@ -66,15 +68,15 @@ SHARED_FUNCTION real trial_objective(const search_state *s, int station, int wat
 	if (GRID_FAIRNESS == GRID_VARIATION)
 		return third_objective(s, s->trial, station, waterline);
 	const int node = node_of(s, station, waterline);
-	const STATE real *b = s->trial + (node - s->stride);
-	const STATE real *h = s->trial + node;
-	const STATE real *a = s->trial + (node + s->stride);
-	const node_row below = { b[-1], b[0], b[1] };
-	const node_row here = { h[-1], h[0], h[1] };
-	const node_row above = { a[-1], a[0], a[1] };
+	const STATE stored *b = s->trial + (node - s->stride);
+	const STATE stored *h = s->trial + node;
+	const STATE stored *a = s->trial + (node + s->stride);
+	const node_row below = { AT(b[-1]), AT(b[0]), AT(b[1]) };
+	const node_row here = { AT(h[-1]), AT(h[0]), AT(h[1]) };
+	const node_row above = { AT(a[-1]), AT(a[0]), AT(a[1]) };
 	return node_objective(GRID_FAIRNESS, s->weights,
 	                      slopes_of(stencil_of(s, station, waterline), below, here, above),
-	                      s->bend[node], s->close[node], here.here, s->target[node]);
+	                      AT(s->bend[node]), AT(s->close[node]), here.here, AT(s->target[node]));
 }
 
 /* The whole objective at s->trial, the same in every work-item. */
@@ -88,24 +90,25 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 			line += trial_objective(s, i, k);
 			if (GRID_PENALTY) {
 				const int node = node_of(s, i, k);
-				line += node_penalty(s->penalty, s->trial[node], s->lower[node], s->upper[node]);
+				line += node_penalty(s->penalty, AT(s->trial[node]), AT(s->lower[node]),
+				                     AT(s->upper[node]));
 			}
 		}
-		s->lines[k] = line;
+		AT(s->lines[k]) = line;
 	}
 	WAIT;
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int k = 0; k < s->waterlines; k++)
-		sum += s->lines[k];
+		sum += AT(s->lines[k]);
 	WAIT;
 	return sum;
 }
 
-/* The state of a group: its part of the arrays, and SEARCH_STATE_COUNT arrays of nodes to work in. */
+/* The state of a group: its part of the arrays, and SEARCH_STATE_NUMBERS to work in. */
 SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const scalar *stencils,
-                                      GLOBAL const real *arrays, GLOBAL const real *settings,
-                                      STATE real *room, LOCAL real *lines)
+                                      GLOBAL const stored *arrays, GLOBAL const stored *settings,
+                                      STATE stored *room)
 {
 	search_state s;
 	s.stations = stations;
@@ -122,18 +125,19 @@ SHARED_FUNCTION search_state state_of(int stations, int waterlines, GLOBAL const
 	s.terms = room + 3 * s.nodes;
 	s.found = room + 4 * s.nodes;
 	s.ways = room + 5 * s.nodes;
-	s.slopes = (STATE node_slopes *)(room + (5 + GRID_WAYS - 1) * s.nodes);
+	s.slopes = (STATE stored_slopes *)(room + (5 + GRID_WAYS - 1) * s.nodes);
+	s.lines = room + SEARCH_STATE_COUNT * s.nodes;
+	s.gathered = s.lines + waterlines;
 	s.lower = arrays + SEARCH_ARRAY_LOWER * s.nodes;
 	s.upper = arrays + SEARCH_ARRAY_UPPER * s.nodes;
 	s.target = arrays + SEARCH_ARRAY_TARGET * s.nodes;
 	s.bend = arrays + SEARCH_ARRAY_BEND * s.nodes;
 	s.close = arrays + SEARCH_ARRAY_CLOSE * s.nodes;
-	s.lines = lines;
-	s.weights.along = settings[SEARCH_SETTING_ALONG];
-	s.weights.across = settings[SEARCH_SETTING_ACROSS];
-	s.weights.blunt = settings[SEARCH_SETTING_BLUNT];
-	s.wide_probes = settings[SEARCH_SETTING_WIDE_PROBES];
-	s.penalty = settings[SEARCH_SETTING_PENALTY];
+	s.weights.along = AT(settings[SEARCH_SETTING_ALONG]);
+	s.weights.across = AT(settings[SEARCH_SETTING_ACROSS]);
+	s.weights.blunt = AT(settings[SEARCH_SETTING_BLUNT]);
+	s.wide_probes = AT(settings[SEARCH_SETTING_WIDE_PROBES]);
+	s.penalty = AT(settings[SEARCH_SETTING_PENALTY]);
 	return s;
 }
 

@@ -9,17 +9,19 @@
 #include "grid_energy.h"
 #include "surface_variation.h"
 
-SHARED_FUNCTION node_row third_row(const STATE real *y)
+SHARED_FUNCTION node_row third_row(const STATE stored *y)
 {
-	const node_row row = { y[-1], y[0], y[1] };
+	const node_row row = { AT(y[-1]), AT(y[0]), AT(y[1]) };
 	return row;
 }
 
 /* The third derivative of the polynomial through five values `step` apart. */
-SHARED_FUNCTION real third_along(GLOBAL const scalar *weights, const STATE real *y, int step)
+SHARED_FUNCTION real third_along(GLOBAL const scalar *weights, const STATE stored *y, int step)
 {
-	const real low = weights[0] * (y[-step] - y[-2 * step]) + weights[1] * (y[0] - y[-step]);
-	const real high = weights[2] * (y[step] - y[0]) + weights[3] * (y[2 * step] - y[step]);
+	const real low = weights[0] * (AT(y[-step]) - AT(y[-2 * step])) +
+	                 weights[1] * (AT(y[0]) - AT(y[-step]));
+	const real high = weights[2] * (AT(y[step]) - AT(y[0])) +
+	                  weights[3] * (AT(y[2 * step]) - AT(y[step]));
 	return low + high;
 }
 
@@ -44,17 +46,17 @@ SHARED_FUNCTION surface_jet third_jet(node_slopes d)
 }
 
 SHARED_FUNCTION surface_third third_of(const search_state *s, const node_stencil *w,
-                                       const STATE real *y, int station, int waterline)
+                                       const STATE stored *y, int station, int waterline)
 {
 	const scalar none = LITERAL(0.0);
 	real along_x[3], along_z[3];
 	UNROLLED
 	for (int n = 0; n < 3; n++) {
-		const STATE real *row = y + (n - 1) * s->stride;
-		const STATE real *column = y + (n - 1);
-		along_x[n] = stencil_second(w->x[2], w->x[3], row[-1], row[0], row[1]);
-		along_z[n] = stencil_second(w->z[2], w->z[3], column[-s->stride], column[0],
-		                            column[s->stride]);
+		const STATE stored *row = y + (n - 1) * s->stride;
+		const STATE stored *column = y + (n - 1);
+		along_x[n] = stencil_second(w->x[2], w->x[3], AT(row[-1]), AT(row[0]), AT(row[1]));
+		along_z[n] = stencil_second(w->z[2], w->z[3], AT(column[-s->stride]), AT(column[0]),
+		                            AT(column[s->stride]));
 	}
 	surface_third t;
 	t.uuu = third_triple(none, third_along(s->third_x + station * STENCIL_THIRD, y, 1), none);
@@ -69,15 +71,15 @@ SHARED_FUNCTION surface_third third_of(const search_state *s, const node_stencil
 
 /* The density of the variation of curvature times dS / (dx dz) at a node of y; 0 where no lane has a term:
  * nothing is read there, for it may lie next to the grid's edge. */
-SHARED_FUNCTION real third_fairness(const search_state *s, const STATE real *y, int station,
+SHARED_FUNCTION real third_fairness(const search_state *s, const STATE stored *y, int station,
                                     int waterline)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const int node = node_of(s, station, waterline);
-	if (!ANY(s->bend[node] > zero))
+	if (!ANY(AT(s->bend[node]) > zero))
 		return zero;
 	const node_stencil w = stencil_of(s, station, waterline);
-	const STATE real *at = y + node;
+	const STATE stored *at = y + node;
 	const surface_jet j = third_jet(
 		slopes_of(w, third_row(at - s->stride), third_row(at), third_row(at + s->stride)));
 	const surface_shape shape = surface_shape_of(j, zero);
@@ -86,12 +88,12 @@ SHARED_FUNCTION real third_fairness(const search_state *s, const STATE real *y, 
 }
 
 /* The part of the objective of a node of y. */
-SHARED_FUNCTION real third_objective(const search_state *s, const STATE real *y, int station,
+SHARED_FUNCTION real third_objective(const search_state *s, const STATE stored *y, int station,
                                      int waterline)
 {
 	const int node = node_of(s, station, waterline);
-	return node_energy(s->bend[node], third_fairness(s, y, station, waterline)) +
-	       node_closeness(s->close[node], y[node], s->target[node]);
+	return node_energy(AT(s->bend[node]), third_fairness(s, y, station, waterline)) +
+	       node_closeness(AT(s->close[node]), AT(y[node]), AT(s->target[node]));
 }
 
 #endif

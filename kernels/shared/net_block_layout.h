@@ -72,13 +72,12 @@ enum { NET_POINTS_MOST = 16 }; /* samples a span and direction */
 	(3 * (columns) + NET_BLOCK_PROBED * (count_u) +                                                \
 	 NET_BLOCK_COLUMN_SIZE * (points_u) * (order_u) + 3 * (columns) + 9 * (columns) * (order_u))
 
-/* Numbers of a search's state in one lane. */
+/* Numbers of a search's state in one lane: of poles, samples, lines that are worked; sums, BLOCK_SUM_COUNT a column and
+ * one a line of samples; what lanes say. */
 #define NET_BLOCK_STATE_NUMBERS(columns, rows, count_u, count_v, band, slots, order_u, points_u)   \
 	((BLOCK_STATE_COUNT + (band) + 1) * (columns) * (rows) +                                       \
 	 NET_BLOCK_SAMPLE * (count_u) * (count_v) +                                                    \
-	 (slots)*NET_BLOCK_LINE_NUMBERS(columns, count_u, order_u, points_u))
-
-/* Sums: BLOCK_SUM_COUNT a column, one a line of samples. */
-#define NET_BLOCK_SUM_NUMBERS(columns, count_v) (BLOCK_SUM_COUNT * (columns) + (count_v))
+	 (slots)*NET_BLOCK_LINE_NUMBERS(columns, count_u, order_u, points_u) +                         \
+	 BLOCK_SUM_COUNT * (columns) + (count_v) + BLOCK_LANE_NUMBERS)
 
 #endif

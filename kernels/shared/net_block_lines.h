@@ -25,16 +25,17 @@ typedef struct block_state {
 	GLOBAL const int *first_u, *first_v;                /* the first pole a sample sees */
 	GLOBAL const int *follower;             /* a pole and the one it goes with, in turn */
 	GLOBAL const scalar *table_u, *table_v; /* NET_TABLE_SIZE a sample */
-	STATE real *arrays;                     /* [BLOCK_STATE_COUNT][nodes] */
-	STATE real *samples;                    /* [count_v][count_u][NET_BLOCK_SAMPLE] */
-	STATE real *rows;                       /* [nodes][band] */
-	STATE real *bottom;                     /* [nodes]: slopes along the poles, the way */
-	STATE real *work;                       /* [slots][NET_BLOCK_LINE_NUMBERS] */
-	LOCAL real *sums;                       /* [BLOCK_SUM_COUNT][lines] */
-	LOCAL real *terms;                      /* of the objective, a line of samples each */
+	STATE stored *arrays;                   /* [BLOCK_STATE_COUNT][nodes] */
+	STATE stored *samples;                  /* [count_v][count_u][NET_BLOCK_SAMPLE] */
+	STATE stored *rows;                     /* [nodes][band] */
+	STATE stored *bottom;                   /* [nodes]: slopes along the poles, the way */
+	STATE stored *work;                     /* [slots][NET_BLOCK_LINE_NUMBERS] */
+	STATE stored *sums;                     /* [BLOCK_SUM_COUNT][lines] */
+	LOCAL int *vote;
+	STATE stored *terms; /* of the objective, a line of samples each */
 } block_state;
 
-SHARED_FUNCTION STATE real *block_array(const block_state *s, int array)
+SHARED_FUNCTION STATE stored *block_array(const block_state *s, int array)
 {
 	return s->arrays + array * s->nodes;
 }
@@ -43,11 +44,11 @@ SHARED_FUNCTION STATE real *block_array(const block_state *s, int array)
 
 /* What is worked of a line of samples. */
 typedef struct net_line {
-	STATE real *columns; /* [lines][3]: taken together along v, with two derivatives */
-	STATE real *probes;  /* [count_u][NET_BLOCK_PROBED] */
-	STATE real *span;    /* [NET_POINTS_U][NET_ORDER_U][NET_BLOCK_COLUMN_SIZE] */
-	STATE real *slopes;  /* [lines][3]: along columns, their first and second derivatives by v */
-	STATE real *pairs;   /* [lines][NET_ORDER_U][9] */
+	STATE stored *columns; /* [lines][3]: taken together along v, with two derivatives */
+	STATE stored *probes;  /* [count_u][NET_BLOCK_PROBED] */
+	STATE stored *span;    /* [NET_POINTS_U][NET_ORDER_U][NET_BLOCK_COLUMN_SIZE] */
+	STATE stored *slopes;  /* [lines][3]: along columns, their first and second derivatives by v */
+	STATE stored *pairs;   /* [lines][NET_ORDER_U][9] */
 } net_line;
 
 SHARED_FUNCTION net_line net_line_of(const block_state *s, int slot)
@@ -62,52 +63,52 @@ SHARED_FUNCTION net_line net_line_of(const block_state *s, int slot)
 	return line;
 }
 
-SHARED_FUNCTION STATE real *net_sample(const block_state *s, int line, int sample)
+SHARED_FUNCTION STATE stored *net_sample(const block_state *s, int line, int sample)
 {
 	return s->samples + (line * s->count_u + sample) * NET_BLOCK_SAMPLE;
 }
 
 /* Takes the net y together along v for a line of samples. */
-SHARED_FUNCTION void net_collapse_line(const block_state *s, const STATE real *y, int line,
-                                       STATE real *columns)
+SHARED_FUNCTION void net_collapse_line(const block_state *s, const STATE stored *y, int line,
+                                       STATE stored *columns)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
-	const STATE real *poles = y + s->first_v[line];
+	const STATE stored *poles = y + s->first_v[line];
 	ROLLED
 	for (int i = 0; i < s->lines; i++) {
 		real value = zero, once = zero, twice = zero;
 		UNROLLED
 		for (int k = 0; k < NET_ORDER_V; k++) {
-			const real pole = poles[i * s->length + k];
+			const real pole = AT(poles[i * s->length + k]);
 			value = FUSED(SPREAD(table[k]), pole, value);
 			once = FUSED(SPREAD(table[NET_ORDER_V + k]), pole, once);
 			twice = FUSED(SPREAD(table[2 * NET_ORDER_V + k]), pole, twice);
 		}
-		columns[3 * i] = value;
-		columns[3 * i + 1] = once;
-		columns[3 * i + 2] = twice;
+		AT(columns[3 * i]) = value;
+		AT(columns[3 * i + 1]) = once;
+		AT(columns[3 * i + 2]) = twice;
 	}
 }
 
 /* The derivatives at a sample of the line. */
-SHARED_FUNCTION net_way net_way_at(const block_state *s, const STATE real *columns, int sample)
+SHARED_FUNCTION net_way net_way_at(const block_state *s, const STATE stored *columns, int sample)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	GLOBAL const scalar *table = s->table_u + sample * NET_TABLE_SIZE(NET_ORDER_U);
-	const STATE real *column = columns + 3 * s->first_u[sample];
+	const STATE stored *column = columns + 3 * s->first_u[sample];
 	net_way way = { zero, zero, zero, zero, zero, zero };
 	UNROLLED
 	for (int i = 0; i < NET_ORDER_U; i++) {
 		const real t0 = SPREAD(table[i]);
 		const real t1 = SPREAD(table[NET_ORDER_U + i]);
 		const real t2 = SPREAD(table[2 * NET_ORDER_U + i]);
-		way.at = FUSED(t0, column[3 * i], way.at);
-		way.u = FUSED(t1, column[3 * i], way.u);
-		way.uu = FUSED(t2, column[3 * i], way.uu);
-		way.v = FUSED(t0, column[3 * i + 1], way.v);
-		way.uv = FUSED(t1, column[3 * i + 1], way.uv);
-		way.vv = FUSED(t0, column[3 * i + 2], way.vv);
+		way.at = FUSED(t0, AT(column[3 * i]), way.at);
+		way.u = FUSED(t1, AT(column[3 * i]), way.u);
+		way.uu = FUSED(t2, AT(column[3 * i]), way.uu);
+		way.v = FUSED(t0, AT(column[3 * i + 1]), way.v);
+		way.uv = FUSED(t1, AT(column[3 * i + 1]), way.uv);
+		way.vv = FUSED(t0, AT(column[3 * i + 2]), way.vv);
 	}
 	return way;
 }
@@ -117,37 +118,37 @@ SHARED_FUNCTION net_way net_way_at(const block_state *s, const STATE real *colum
  * --------------------------------------------------------------------------------------------- */
 
 /* What of a sample x and z decide. */
-SHARED_FUNCTION void net_place_sample(STATE real *sample, net_way x, net_way z)
+SHARED_FUNCTION void net_place_sample(STATE stored *sample, net_way x, net_way z)
 {
-	sample[NET_BLOCK_XU] = x.u;
-	sample[NET_BLOCK_XV] = x.v;
-	sample[NET_BLOCK_ZU] = z.u;
-	sample[NET_BLOCK_ZV] = z.v;
-	sample[NET_BLOCK_UU] = FUSED(x.v, z.uu, -(z.v * x.uu));
-	sample[NET_BLOCK_UU + 1] = FUSED(z.u, x.uu, -(x.u * z.uu));
-	sample[NET_BLOCK_UV] = FUSED(x.v, z.uv, -(z.v * x.uv));
-	sample[NET_BLOCK_UV + 1] = FUSED(z.u, x.uv, -(x.u * z.uv));
-	sample[NET_BLOCK_VV] = FUSED(x.v, z.vv, -(z.v * x.vv));
-	sample[NET_BLOCK_VV + 1] = FUSED(z.u, x.vv, -(x.u * z.vv));
+	AT(sample[NET_BLOCK_XU]) = x.u;
+	AT(sample[NET_BLOCK_XV]) = x.v;
+	AT(sample[NET_BLOCK_ZU]) = z.u;
+	AT(sample[NET_BLOCK_ZV]) = z.v;
+	AT(sample[NET_BLOCK_UU]) = FUSED(x.v, z.uu, -(z.v * x.uu));
+	AT(sample[NET_BLOCK_UU + 1]) = FUSED(z.u, x.uu, -(x.u * z.uu));
+	AT(sample[NET_BLOCK_UV]) = FUSED(x.v, z.uv, -(z.v * x.uv));
+	AT(sample[NET_BLOCK_UV + 1]) = FUSED(z.u, x.uv, -(x.u * z.uv));
+	AT(sample[NET_BLOCK_VV]) = FUSED(x.v, z.vv, -(z.v * x.vv));
+	AT(sample[NET_BLOCK_VV + 1]) = FUSED(z.u, x.vv, -(x.u * z.vv));
 }
 
 /* What the target decides of it, and where the search begins: whether there is a normal. */
-SHARED_FUNCTION void net_weigh_sample(STATE real *sample, net_way target, net_way start, mask fresh,
-                                      real fair, real close)
+SHARED_FUNCTION void net_weigh_sample(STATE stored *sample, net_way target, net_way start,
+                                      mask fresh, real fair, real close)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real angle = SPREAD(NET_BLOCK_ANGLE * NET_BLOCK_ANGLE);
-	sample[NET_BLOCK_TARGET] = target.u;
-	sample[NET_BLOCK_TARGET + 1] = target.v;
-	sample[NET_BLOCK_TARGET + 2] = target.uu;
-	sample[NET_BLOCK_TARGET + 3] = target.uv;
-	sample[NET_BLOCK_TARGET + 4] = target.vv;
+	AT(sample[NET_BLOCK_TARGET]) = target.u;
+	AT(sample[NET_BLOCK_TARGET + 1]) = target.v;
+	AT(sample[NET_BLOCK_TARGET + 2]) = target.uu;
+	AT(sample[NET_BLOCK_TARGET + 3]) = target.uv;
+	AT(sample[NET_BLOCK_TARGET + 4]) = target.vv;
 	const net_metric m = net_metric_of(sample, target.u + start.u, target.v + start.v);
 	const mask regular = m.square > angle * (m.uu * m.vv);
 	const real flat = CHOOSE(m.n_y < zero, -m.n_y, m.n_y);
 	const real root = CHOOSE(regular, SQUARE_ROOT(fair + fair), zero);
-	sample[NET_BLOCK_ROOT] = CHOOSE(fresh, root, sample[NET_BLOCK_ROOT]);
-	sample[NET_BLOCK_CLOSE] = close * flat;
+	AT(sample[NET_BLOCK_ROOT]) = CHOOSE(fresh, root, AT(sample[NET_BLOCK_ROOT]));
+	AT(sample[NET_BLOCK_CLOSE]) = close * flat;
 }
 
 /* The samples of searches that have just come into their lanes; those of others are found again, to the bit. */
@@ -159,8 +160,8 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
 	for (int line = WORK_ITEM; line < lines; line += WORK_ITEMS) {
 		/* Four nets in the place of one: there are no pairs yet. */
 		const net_line room = net_line_of(s, line % s->slots);
-		STATE real *x = room.columns, *z = room.slopes;
-		STATE real *target = room.pairs, *start = target + 3 * s->lines;
+		STATE stored *x = room.columns, *z = room.slopes;
+		STATE stored *target = room.pairs, *start = target + 3 * s->lines;
 		const scalar along_v = s->table_v[(line + 1) * NET_TABLE_SIZE(NET_ORDER_V) - 1];
 		net_collapse_line(s, block_array(s, BLOCK_INPUT_X), line, x);
 		net_collapse_line(s, block_array(s, BLOCK_INPUT_Z), line, z);
@@ -168,7 +169,7 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
 		net_collapse_line(s, block_array(s, BLOCK_INPUT_START), line, start);
 		ROLLED
 		for (int i = 0; i < s->count_u; i++) {
-			STATE real *sample = net_sample(s, line, i);
+			STATE stored *sample = net_sample(s, line, i);
 			const scalar area = s->table_u[(i + 1) * NET_TABLE_SIZE(NET_ORDER_U) - 1] * along_v;
 			net_place_sample(sample, net_way_at(s, x, i), net_way_at(s, z, i));
 			net_weigh_sample(sample, net_way_at(s, target, i), net_way_at(s, start, i), fresh,
@@ -183,14 +184,14 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
  * --------------------------------------------------------------------------------------------- */
 
 /* The objective of a line with the net y. */
-SHARED_FUNCTION real net_line_objective(const block_state *s, const STATE real *y, int line)
+SHARED_FUNCTION real net_line_objective(const block_state *s, const STATE stored *y, int line)
 {
-	STATE real *columns = net_line_of(s, line % s->slots).columns;
+	STATE stored *columns = net_line_of(s, line % s->slots).columns;
 	real sum = SPREAD(LITERAL(0.0));
 	net_collapse_line(s, y, line, columns);
 	ROLLED
 	for (int i = 0; i < s->count_u; i++) {
-		const STATE real *sample = net_sample(s, line, i);
+		const STATE stored *sample = net_sample(s, line, i);
 		const net_forms forms = net_forms_of(sample, net_way_at(s, columns, i), NET_BLOCK_BENDS);
 		sum += net_forms_objective(sample, &forms);
 	}
@@ -204,14 +205,14 @@ SHARED_FUNCTION real net_probe_line(const block_state *s, const net_line *at, in
 	net_collapse_line(s, block_array(s, BLOCK_INPUT_START), line, at->columns);
 	ROLLED
 	for (int i = 0; i < s->count_u; i++) {
-		const STATE real *sample = net_sample(s, line, i);
-		const real close = sample[NET_BLOCK_CLOSE];
+		const STATE stored *sample = net_sample(s, line, i);
+		const real close = AT(sample[NET_BLOCK_CLOSE]);
 		const net_forms forms = net_forms_of(sample, net_way_at(s, at->columns, i),
 		                                     NET_BLOCK_BENDS);
-		STATE real *to = at->probes + i * NET_BLOCK_PROBED;
+		STATE stored *to = at->probes + i * NET_BLOCK_PROBED;
 		net_probe(sample, &forms, part, to);
-		to[NET_BLOCK_CLOSE_SLOPE] = (close + close) * forms.at;
-		to[NET_BLOCK_CLOSE_CURVATURE] = close + close;
+		AT(to[NET_BLOCK_CLOSE_SLOPE]) = (close + close) * forms.at;
+		AT(to[NET_BLOCK_CLOSE_CURVATURE]) = close + close;
 		sum += net_forms_objective(sample, &forms);
 	}
 	return sum;

@@ -32,10 +32,10 @@ typedef struct net_metric {
 } net_metric;
 
 /* u, v: derivatives of y. */
-SHARED_FUNCTION net_metric net_metric_of(const STATE real *sample, real u, real v)
+SHARED_FUNCTION net_metric net_metric_of(const STATE stored *sample, real u, real v)
 {
-	const real x_u = sample[NET_BLOCK_XU], x_v = sample[NET_BLOCK_XV];
-	const real z_u = sample[NET_BLOCK_ZU], z_v = sample[NET_BLOCK_ZV];
+	const real x_u = AT(sample[NET_BLOCK_XU]), x_v = AT(sample[NET_BLOCK_XV]);
+	const real z_u = AT(sample[NET_BLOCK_ZU]), z_v = AT(sample[NET_BLOCK_ZV]);
 	net_metric m;
 	m.n_x = FUSED(v, z_u, -(u * z_v));
 	m.n_y = FUSED(x_u, z_v, -(z_u * x_v));
@@ -61,25 +61,25 @@ typedef struct net_forms {
 } net_forms;
 
 /* Where a sample has no energy what is worked is finite, and its weight is 0. */
-SHARED_FUNCTION net_forms net_forms_of(const STATE real *sample, net_way way, int bends)
+SHARED_FUNCTION net_forms net_forms_of(const STATE stored *sample, net_way way, int bends)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
-	const STATE real *target = sample + NET_BLOCK_TARGET;
+	const STATE stored *target = sample + NET_BLOCK_TARGET;
 	net_forms s;
 	s.bends = bends;
-	s.has = sample[NET_BLOCK_ROOT] > zero;
+	s.has = AT(sample[NET_BLOCK_ROOT]) > zero;
 	s.at = way.at;
-	s.u = target[0] + way.u;
-	s.v = target[1] + way.v;
+	s.u = AT(target[0]) + way.u;
+	s.v = AT(target[1]) + way.v;
 	s.metric = net_metric_of(sample, s.u, s.v);
 	const real n_y = s.metric.n_y;
-	s.e = FUSED(sample[NET_BLOCK_UU], s.u,
-	            FUSED(sample[NET_BLOCK_UU + 1], s.v, n_y * (target[2] + way.uu)));
-	s.f = FUSED(sample[NET_BLOCK_UV], s.u,
-	            FUSED(sample[NET_BLOCK_UV + 1], s.v, n_y * (target[3] + way.uv)));
-	s.g = FUSED(sample[NET_BLOCK_VV], s.u,
-	            FUSED(sample[NET_BLOCK_VV + 1], s.v, n_y * (target[4] + way.vv)));
+	s.e = FUSED(AT(sample[NET_BLOCK_UU]), s.u,
+	            FUSED(AT(sample[NET_BLOCK_UU + 1]), s.v, n_y * (AT(target[2]) + way.uu)));
+	s.f = FUSED(AT(sample[NET_BLOCK_UV]), s.u,
+	            FUSED(AT(sample[NET_BLOCK_UV + 1]), s.v, n_y * (AT(target[3]) + way.uv)));
+	s.g = FUSED(AT(sample[NET_BLOCK_VV]), s.u,
+	            FUSED(AT(sample[NET_BLOCK_VV + 1]), s.v, n_y * (AT(target[4]) + way.vv)));
 	s.metric.square = CHOOSE(s.has, s.metric.square, one);
 	s.metric.uu = CHOOSE(s.has, s.metric.uu, one);
 	s.metric.vv = CHOOSE(s.has, s.metric.vv, one);
@@ -95,7 +95,7 @@ SHARED_FUNCTION net_forms net_forms_of(const STATE real *sample, net_way way, in
 }
 
 /* The sample's part of the objective. */
-SHARED_FUNCTION real net_forms_objective(const STATE real *sample, const net_forms *s)
+SHARED_FUNCTION real net_forms_objective(const STATE stored *sample, const net_forms *s)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real half_of = SPREAD(LITERAL(0.5));
@@ -107,9 +107,9 @@ SHARED_FUNCTION real net_forms_objective(const STATE real *sample, const net_for
 	const real squares = s->bends ? FUSED(first, first,
 	                                      FUSED((two * s->by_square) * middle, middle, last * last))
 	                              : mean * mean;
-	const real weight = half_of * (sample[NET_BLOCK_ROOT] * sample[NET_BLOCK_ROOT]);
+	const real weight = half_of * (AT(sample[NET_BLOCK_ROOT]) * AT(sample[NET_BLOCK_ROOT]));
 	const real energy = (weight * s->root) * squares;
-	return FUSED(sample[NET_BLOCK_CLOSE] * s->at, s->at, CHOOSE(s->has, energy, zero));
+	return FUSED(AT(sample[NET_BLOCK_CLOSE]) * s->at, s->at, CHOOSE(s->has, energy, zero));
 }
 
 /* The three numbers; middle with the root of its 2. */
@@ -169,40 +169,40 @@ SHARED_FUNCTION net_bends net_bends_slope(net_bends plus, net_bends minus, real 
 }
 
 /* Puts what a derivative changes, number n of the five. */
-SHARED_FUNCTION void net_put_bends(const net_forms *s, STATE real *to, int n, net_bends b)
+SHARED_FUNCTION void net_put_bends(const net_forms *s, STATE stored *to, int n, net_bends b)
 {
 	const real half_of = SPREAD(LITERAL(0.5));
-	to[NET_BLOCK_LAST + n] = s->bends ? b.last : half_of * (b.first + b.last);
+	AT(to[NET_BLOCK_LAST + n]) = s->bends ? b.last : half_of * (b.first + b.last);
 	if (s->bends && n < 4)
-		to[NET_BLOCK_MIDDLE + n] = b.middle;
+		AT(to[NET_BLOCK_MIDDLE + n]) = b.middle;
 	if (s->bends && n < 3)
-		to[NET_BLOCK_FIRST + n] = b.first;
+		AT(to[NET_BLOCK_FIRST + n]) = b.first;
 }
 
 /* What y_u and y_v change. How near they are probed: as far as turns the normal by about NET_BLOCK_NEAR. */
-SHARED_FUNCTION void net_probe_near(const STATE real *sample, const net_forms *s, real fourth,
-                                    real weight, STATE real *to)
+SHARED_FUNCTION void net_probe_near(const STATE stored *sample, const net_forms *s, real fourth,
+                                    real weight, STATE stored *to)
 {
 	const real two = SPREAD(LITERAL(2.0));
 	const real near = SPREAD(NET_BLOCK_NEAR) * s->metric.square;
-	const real x_u = sample[NET_BLOCK_XU], x_v = sample[NET_BLOCK_XV];
-	const real z_u = sample[NET_BLOCK_ZU], z_v = sample[NET_BLOCK_ZV];
+	const real x_u = AT(sample[NET_BLOCK_XU]), x_v = AT(sample[NET_BLOCK_XV]);
+	const real z_u = AT(sample[NET_BLOCK_ZU]), z_v = AT(sample[NET_BLOCK_ZV]);
 	const real n_x = s->metric.n_x, n_z = s->metric.n_z;
 	const real inverse_u = SQUARE_ROOT(s->metric.vv * s->by_square);
 	const real inverse_v = SQUARE_ROOT(s->metric.uu * s->by_square);
 	const real by_u = near * (s->by_vv * inverse_u);
 	const real by_v = near * (s->by_uu * inverse_v);
 	const real by_half = SPREAD(LITERAL(0.5) / NET_BLOCK_NEAR) * weight;
-	const net_turn u = { sample[NET_BLOCK_UU],
-		                 sample[NET_BLOCK_UV],
-		                 sample[NET_BLOCK_VV],
+	const net_turn u = { AT(sample[NET_BLOCK_UU]),
+		                 AT(sample[NET_BLOCK_UV]),
+		                 AT(sample[NET_BLOCK_VV]),
 		                 s->v,
 		                 two * FUSED(n_z, x_v, -(n_x * z_v)),
 		                 FUSED(x_v, x_v, z_v * z_v),
 		                 1 };
-	const net_turn v = { sample[NET_BLOCK_UU + 1],
-		                 sample[NET_BLOCK_UV + 1],
-		                 sample[NET_BLOCK_VV + 1],
+	const net_turn v = { AT(sample[NET_BLOCK_UU + 1]),
+		                 AT(sample[NET_BLOCK_UV + 1]),
+		                 AT(sample[NET_BLOCK_VV + 1]),
 		                 s->u,
 		                 two * FUSED(n_x, z_u, -(n_z * x_u)),
 		                 FUSED(x_u, x_u, z_u * z_u),
@@ -216,7 +216,7 @@ SHARED_FUNCTION void net_probe_near(const STATE real *sample, const net_forms *s
 }
 
 /* What y_uu, y_uv and y_vv change. */
-SHARED_FUNCTION void net_probe_far(const net_forms *s, real fourth, real weight, STATE real *to)
+SHARED_FUNCTION void net_probe_far(const net_forms *s, real fourth, real weight, STATE stored *to)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real n_y = weight * s->metric.n_y;
@@ -229,11 +229,11 @@ SHARED_FUNCTION void net_probe_far(const net_forms *s, real fourth, real weight,
 }
 
 /* All that is probed at a sample; what y_u and y_v change counts `part`. */
-SHARED_FUNCTION void net_probe(const STATE real *sample, const net_forms *s, real part,
-                               STATE real *to)
+SHARED_FUNCTION void net_probe(const STATE stored *sample, const net_forms *s, real part,
+                               STATE stored *to)
 {
 	const real half_of = SPREAD(LITERAL(0.5));
-	const real weight = sample[NET_BLOCK_ROOT];
+	const real weight = AT(sample[NET_BLOCK_ROOT]);
 	const real fourth = SQUARE_ROOT(s->root);
 	const net_bends here = net_bends_of(fourth, s->root, s->by_square, s->metric.uu, s->by_uu,
 	                                    s->metric.uv, s->e, s->f, s->g);
@@ -242,12 +242,12 @@ SHARED_FUNCTION void net_probe(const STATE real *sample, const net_forms *s, rea
 	const real last = weight * (s->bends ? here.last : half_of * (here.first + here.last));
 	UNROLLED
 	for (int n = 0; n < 5; n++) {
-		real slope = last * to[NET_BLOCK_LAST + n];
+		real slope = last * AT(to[NET_BLOCK_LAST + n]);
 		if (s->bends && n < 4)
-			slope = FUSED(weight * here.middle, to[NET_BLOCK_MIDDLE + n], slope);
+			slope = FUSED(weight * here.middle, AT(to[NET_BLOCK_MIDDLE + n]), slope);
 		if (s->bends && n < 3)
-			slope = FUSED(weight * here.first, to[NET_BLOCK_FIRST + n], slope);
-		to[NET_BLOCK_SLOPE + n] = slope;
+			slope = FUSED(weight * here.first, AT(to[NET_BLOCK_FIRST + n]), slope);
+		AT(to[NET_BLOCK_SLOPE + n]) = slope;
 	}
 }
 

@@ -9,52 +9,52 @@
 /* What the columns that a sample sees change of its numbers, by their values and derivatives along v: y_u and y_uu
  * are of the value, y_v and y_uv of the first derivative, y_vv of the second. */
 SHARED_FUNCTION void net_change_columns(const block_state *s, const net_line *at, int sample,
-                                        STATE real *to)
+                                        STATE stored *to)
 {
 	GLOBAL const scalar *table = s->table_u + sample * NET_TABLE_SIZE(NET_ORDER_U);
-	const STATE real *probed = at->probes + sample * NET_BLOCK_PROBED;
-	const STATE real *last = probed + NET_BLOCK_LAST;
-	const STATE real *middle = probed + NET_BLOCK_MIDDLE;
-	const STATE real *first = probed + NET_BLOCK_FIRST;
+	const STATE stored *probed = at->probes + sample * NET_BLOCK_PROBED;
+	const STATE stored *last = probed + NET_BLOCK_LAST;
+	const STATE stored *middle = probed + NET_BLOCK_MIDDLE;
+	const STATE stored *first = probed + NET_BLOCK_FIRST;
 	UNROLLED
 	for (int a = 0; a < NET_ORDER_U; a++) {
 		const real t0 = SPREAD(table[a]);
 		const real t1 = SPREAD(table[NET_ORDER_U + a]);
 		const real t2 = SPREAD(table[2 * NET_ORDER_U + a]);
-		STATE real *column = to + a * NET_BLOCK_COLUMN_SIZE;
-		column[NET_BLOCK_COLUMN_LAST] = FUSED(t1, last[0], t2 * last[2]);
-		column[NET_BLOCK_COLUMN_LAST + 1] = FUSED(t0, last[1], t1 * last[3]);
-		column[NET_BLOCK_COLUMN_LAST + 2] = t0 * last[4];
+		STATE stored *column = to + a * NET_BLOCK_COLUMN_SIZE;
+		AT(column[NET_BLOCK_COLUMN_LAST]) = FUSED(t1, AT(last[0]), t2 * AT(last[2]));
+		AT(column[NET_BLOCK_COLUMN_LAST + 1]) = FUSED(t0, AT(last[1]), t1 * AT(last[3]));
+		AT(column[NET_BLOCK_COLUMN_LAST + 2]) = t0 * AT(last[4]);
 		if (NET_BLOCK_BENDS) {
-			column[NET_BLOCK_COLUMN_MIDDLE] = FUSED(t1, middle[0], t2 * middle[2]);
-			column[NET_BLOCK_COLUMN_MIDDLE + 1] = FUSED(t0, middle[1], t1 * middle[3]);
-			column[NET_BLOCK_COLUMN_FIRST] = FUSED(t1, first[0], t2 * first[2]);
-			column[NET_BLOCK_COLUMN_FIRST + 1] = t0 * first[1];
+			AT(column[NET_BLOCK_COLUMN_MIDDLE]) = FUSED(t1, AT(middle[0]), t2 * AT(middle[2]));
+			AT(column[NET_BLOCK_COLUMN_MIDDLE + 1]) = FUSED(t0, AT(middle[1]), t1 * AT(middle[3]));
+			AT(column[NET_BLOCK_COLUMN_FIRST]) = FUSED(t1, AT(first[0]), t2 * AT(first[2]));
+			AT(column[NET_BLOCK_COLUMN_FIRST + 1]) = t0 * AT(first[1]);
 		}
-		column[NET_BLOCK_COLUMN_CLOSE] = t0 * probed[NET_BLOCK_CLOSE_CURVATURE];
+		AT(column[NET_BLOCK_COLUMN_CLOSE]) = t0 * AT(probed[NET_BLOCK_CLOSE_CURVATURE]);
 	}
 }
 
 /* Adds a sample to a pair of columns: products of what both change. */
-SHARED_FUNCTION void net_add_pair(const block_state *s, const STATE real *a, const STATE real *b,
-                                  real close, real sums[9])
+SHARED_FUNCTION void net_add_pair(const block_state *s, const STATE stored *a,
+                                  const STATE stored *b, real close, real sums[9])
 {
 	(void)s;
 	UNROLLED
 	for (int n = 0; n < 9; n++)
-		sums[n] = FUSED(a[NET_BLOCK_COLUMN_LAST + n / 3], b[NET_BLOCK_COLUMN_LAST + n % 3],
+		sums[n] = FUSED(AT(a[NET_BLOCK_COLUMN_LAST + n / 3]), AT(b[NET_BLOCK_COLUMN_LAST + n % 3]),
 		                sums[n]);
 	UNROLLED
 	for (int x = 0; x < (NET_BLOCK_BENDS ? 2 : 0); x++) {
 		UNROLLED
 		for (int y = 0; y < 2; y++) {
-			const real sum = FUSED(a[NET_BLOCK_COLUMN_MIDDLE + x], b[NET_BLOCK_COLUMN_MIDDLE + y],
-			                       sums[3 * x + y]);
-			sums[3 * x + y] = FUSED(a[NET_BLOCK_COLUMN_FIRST + x], b[NET_BLOCK_COLUMN_FIRST + y],
-			                        sum);
+			const real sum = FUSED(AT(a[NET_BLOCK_COLUMN_MIDDLE + x]),
+			                       AT(b[NET_BLOCK_COLUMN_MIDDLE + y]), sums[3 * x + y]);
+			sums[3 * x + y] = FUSED(AT(a[NET_BLOCK_COLUMN_FIRST + x]),
+			                        AT(b[NET_BLOCK_COLUMN_FIRST + y]), sum);
 		}
 	}
-	sums[0] = FUSED(a[NET_BLOCK_COLUMN_CLOSE], close, sums[0]);
+	sums[0] = FUSED(AT(a[NET_BLOCK_COLUMN_CLOSE]), close, sums[0]);
 }
 
 /* Adds the samples of a span, from number i on, to all pairs of its columns. */
@@ -62,7 +62,7 @@ SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int
 {
 	GLOBAL const scalar *table = s->table_u + i * NET_TABLE_SIZE(NET_ORDER_U);
 	const int size = NET_ORDER_U * NET_BLOCK_COLUMN_SIZE;
-	STATE real *pairs = at->pairs + s->first_u[i] * (NET_ORDER_U * 9);
+	STATE stored *pairs = at->pairs + s->first_u[i] * (NET_ORDER_U * 9);
 	ROLLED
 	for (int j = 0; j < NET_POINTS_U; j++)
 		net_change_columns(s, at, i + j, at->span + j * size);
@@ -70,20 +70,20 @@ SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int
 	for (int a = 0; a < NET_ORDER_U; a++) {
 		ROLLED
 		for (int b = a; b < NET_ORDER_U; b++) {
-			STATE real *pair = pairs + (a * NET_ORDER_U + (b - a)) * 9;
+			STATE stored *pair = pairs + (a * NET_ORDER_U + (b - a)) * 9;
 			real sums[9];
 			UNROLLED
 			for (int n = 0; n < 9; n++)
-				sums[n] = pair[n];
+				sums[n] = AT(pair[n]);
 			UNROLLED
 			for (int j = 0; j < NET_POINTS_U; j++) {
-				const STATE real *span = at->span + j * size;
+				const STATE stored *span = at->span + j * size;
 				net_add_pair(s, span + a * NET_BLOCK_COLUMN_SIZE, span + b * NET_BLOCK_COLUMN_SIZE,
 				             SPREAD(table[j * NET_TABLE_SIZE(NET_ORDER_U) + b]), sums);
 			}
 			UNROLLED
 			for (int n = 0; n < 9; n++)
-				pair[n] = sums[n];
+				AT(pair[n]) = sums[n];
 		}
 	}
 }
@@ -91,22 +91,22 @@ SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int
 /* Slopes along the columns of a span, those along poles being their values and derivatives by v. */
 SHARED_FUNCTION void net_add_slopes(const block_state *s, const net_line *at, int i)
 {
-	STATE real *slopes = at->slopes + 3 * s->first_u[i];
+	STATE stored *slopes = at->slopes + 3 * s->first_u[i];
 	ROLLED
 	for (int j = i; j < i + NET_POINTS_U; j++) {
 		GLOBAL const scalar *table = s->table_u + j * NET_TABLE_SIZE(NET_ORDER_U);
-		const STATE real *probed = at->probes + j * NET_BLOCK_PROBED;
-		const STATE real *along = probed + NET_BLOCK_SLOPE;
+		const STATE stored *probed = at->probes + j * NET_BLOCK_PROBED;
+		const STATE stored *along = probed + NET_BLOCK_SLOPE;
 		UNROLLED
 		for (int a = 0; a < NET_ORDER_U; a++) {
 			const real t0 = SPREAD(table[a]);
 			const real t1 = SPREAD(table[NET_ORDER_U + a]);
 			const real t2 = SPREAD(table[2 * NET_ORDER_U + a]);
-			STATE real *slope = slopes + 3 * a;
-			slope[0] = FUSED(t0, probed[NET_BLOCK_CLOSE_SLOPE],
-			                 FUSED(t1, along[0], FUSED(t2, along[2], slope[0])));
-			slope[1] = FUSED(t0, along[1], FUSED(t1, along[3], slope[1]));
-			slope[2] = FUSED(t0, along[4], slope[2]);
+			STATE stored *slope = slopes + 3 * a;
+			AT(slope[0]) = FUSED(t0, AT(probed[NET_BLOCK_CLOSE_SLOPE]),
+			                     FUSED(t1, AT(along[0]), FUSED(t2, AT(along[2]), AT(slope[0]))));
+			AT(slope[1]) = FUSED(t0, AT(along[1]), FUSED(t1, AT(along[3]), AT(slope[1])));
+			AT(slope[2]) = FUSED(t0, AT(along[4]), AT(slope[2]));
 		}
 	}
 }
@@ -119,7 +119,7 @@ SHARED_FUNCTION real net_work_line(const block_state *s, int line, real part)
 	const real sum = net_probe_line(s, &at, line, part);
 	ROLLED
 	for (int n = 0; n < (3 + 9 * NET_ORDER_U) * s->lines; n++)
-		at.slopes[n] = zero; /* and the pairs, which follow them */
+		AT(at.slopes[n]) = zero; /* and the pairs, which follow them */
 	ROLLED
 	for (int i = 0; i < s->count_u; i += NET_POINTS_U) {
 		net_add_slopes(s, &at, i);
@@ -133,23 +133,23 @@ SHARED_FUNCTION void net_add_poles(const block_state *s, int line, int i, int d)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const int first = s->first_v[line];
-	STATE real *rows = s->rows + (i * s->length + first) * s->band + d * s->length;
+	STATE stored *rows = s->rows + (i * s->length + first) * s->band + d * s->length;
 	real sums[NET_ORDER_MOST * NET_ORDER_MOST];
 	UNROLLED
 	for (int n = 0; n < NET_ORDER_V * NET_ORDER_V; n++)
 		sums[n] = zero;
 	ROLLED
 	for (int j = line; j < line + NET_POINTS_V; j++) {
-		const STATE real *pair = net_line_of(s, j % s->slots).pairs + (i * NET_ORDER_U + d) * 9;
+		const STATE stored *pair = net_line_of(s, j % s->slots).pairs + (i * NET_ORDER_U + d) * 9;
 		GLOBAL const scalar *t = s->table_v + j * NET_TABLE_SIZE(NET_ORDER_V);
 		UNROLLED
 		for (int m = 0; m < NET_ORDER_V; m++) {
 			const real t0 = SPREAD(t[m]);
 			const real t1 = SPREAD(t[NET_ORDER_V + m]);
 			const real t2 = SPREAD(t[2 * NET_ORDER_V + m]);
-			const real none = FUSED(pair[2], t2, FUSED(pair[1], t1, pair[0] * t0));
-			const real once = FUSED(pair[5], t2, FUSED(pair[4], t1, pair[3] * t0));
-			const real twice = FUSED(pair[8], t2, FUSED(pair[7], t1, pair[6] * t0));
+			const real none = FUSED(AT(pair[2]), t2, FUSED(AT(pair[1]), t1, AT(pair[0]) * t0));
+			const real once = FUSED(AT(pair[5]), t2, FUSED(AT(pair[4]), t1, AT(pair[3]) * t0));
+			const real twice = FUSED(AT(pair[8]), t2, FUSED(AT(pair[7]), t1, AT(pair[6]) * t0));
 			UNROLLED
 			for (int k = 0; k < NET_ORDER_V; k++) {
 				const int n = m * NET_ORDER_V + k;
@@ -164,23 +164,24 @@ SHARED_FUNCTION void net_add_poles(const block_state *s, int line, int i, int d)
 		const int m = n / NET_ORDER_V;
 		const int k = n % NET_ORDER_V;
 		if (d > 0 || k <= m)
-			rows[k * (s->band - 1) + m] += sums[n];
+			AT(rows[k * (s->band - 1) + m]) += sums[n];
 	}
 }
 
 /* Adds the slopes of column i at the lines of a span to those along the poles. */
 SHARED_FUNCTION void net_add_pole_slopes(const block_state *s, int line, int i)
 {
-	STATE real *poles = s->bottom + i * s->length + s->first_v[line];
+	STATE stored *poles = s->bottom + i * s->length + s->first_v[line];
 	ROLLED
 	for (int j = line; j < line + NET_POINTS_V; j++) {
-		const STATE real *slope = net_line_of(s, j % s->slots).slopes + 3 * i;
+		const STATE stored *slope = net_line_of(s, j % s->slots).slopes + 3 * i;
 		GLOBAL const scalar *t = s->table_v + j * NET_TABLE_SIZE(NET_ORDER_V);
 		UNROLLED
 		for (int k = 0; k < NET_ORDER_V; k++)
-			poles[k] = FUSED(SPREAD(t[k]), slope[0],
-			                 FUSED(SPREAD(t[NET_ORDER_V + k]), slope[1],
-			                       FUSED(SPREAD(t[2 * NET_ORDER_V + k]), slope[2], poles[k])));
+			AT(poles[k]) = FUSED(
+				SPREAD(t[k]), AT(slope[0]),
+				FUSED(SPREAD(t[NET_ORDER_V + k]), AT(slope[1]),
+			          FUSED(SPREAD(t[2 * NET_ORDER_V + k]), AT(slope[2]), AT(poles[k]))));
 	}
 }
 
@@ -200,7 +201,7 @@ SHARED_FUNCTION void net_add_column_pair(const block_state *s, int first, int en
 }
 
 /* The number of the table that couples two poles. */
-SHARED_FUNCTION STATE real *net_entry(const block_state *s, int a, int b)
+SHARED_FUNCTION STATE stored *net_entry(const block_state *s, int a, int b)
 {
 	return a < b ? s->rows + (a * s->band + (b - a)) : s->rows + (b * s->band + (a - b));
 }
@@ -213,16 +214,16 @@ SHARED_FUNCTION void net_fold(const block_state *s, int from, int to)
 	const int end = from + s->band < s->nodes ? from + s->band : s->nodes;
 	ROLLED
 	for (int n = begin; n < end; n++) {
-		STATE real *entry = net_entry(s, from, n);
-		const real value = n == to ? *entry + *entry : *entry;
+		STATE stored *entry = net_entry(s, from, n);
+		const real value = n == to ? AT(*entry) + AT(*entry) : AT(*entry);
 		const int with = n == from ? to : n;
-		*entry = zero;
+		AT(*entry) = zero;
 		/* What lies outside the band is 0. */
 		if (with - to < s->band && to - with < s->band)
-			*net_entry(s, to, with) += value;
+			AT(*net_entry(s, to, with)) += value;
 	}
-	s->bottom[to] += s->bottom[from];
-	s->bottom[from] = zero;
+	AT(s->bottom[to]) += AT(s->bottom[from]);
+	AT(s->bottom[from]) = zero;
 }
 
 /* Completes the rows of a column and leaves them to be factored; what of a pivot is rounding stands where the way
@@ -232,10 +233,10 @@ SHARED_FUNCTION void net_settle_line(const block_state *s, int line, int turn, b
 	block_products sums = block_products_none();
 	ROLLED
 	for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-		STATE real *pivot = s->rows + n * s->band;
-		(void)block_settle_row(s, n, turn, stay, s->bottom[n], *pivot, &sums);
-		*pivot = block_array(s, BLOCK_STATE_INVERSE)[n];
-		s->bottom[n] = SPREAD(BLOCK_PIVOT_FLOOR) * *pivot;
+		STATE stored *pivot = s->rows + n * s->band;
+		(void)block_settle_row(s, n, turn, stay, AT(s->bottom[n]), AT(*pivot), &sums);
+		AT(*pivot) = AT(block_array(s, BLOCK_STATE_INVERSE)[n]);
+		AT(s->bottom[n]) = SPREAD(BLOCK_PIVOT_FLOOR) * AT(*pivot);
 	}
 	block_products_tell(s, line, &sums);
 }
@@ -256,7 +257,7 @@ SHARED_FUNCTION void net_factor(const block_state *s)
 	ROLLED
 	for (int n = 0; n < table.count; n++)
 		block_band_eliminate(table, n, table.count,
-		                     block_band_inverse(table.rows[n * table.band], table.way[n]));
+		                     block_band_inverse(AT(table.rows[n * table.band]), AT(table.way[n])));
 }
 
 /* Probes all samples and sums up to the slopes along the poles and their table. */
@@ -265,13 +266,13 @@ SHARED_FUNCTION void net_gather(const block_state *s, real part)
 	const real zero = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int n = WORK_ITEM; n < (s->band + 1) * s->nodes; n += WORK_ITEMS)
-		s->rows[n] = zero;
+		AT(s->rows[n]) = zero;
 	ROLLED
 	for (int first = 0; first < s->count_v; first += s->slots) {
 		const int end = first + s->slots < s->count_v ? first + s->slots : s->count_v;
 		ROLLED
 		for (int line = first + WORK_ITEM; line < end; line += WORK_ITEMS)
-			s->terms[line] = net_work_line(s, line, part);
+			AT(s->terms[line]) = net_work_line(s, line, part);
 		WAIT;
 		ROLLED
 		for (int n = 0; n < s->lines * NET_ORDER_U; n += WORK_ITEMS)
@@ -285,7 +286,7 @@ SHARED_FUNCTION real net_terms_total(const block_state *s)
 	real total = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int line = 0; line < s->count_v; line++)
-		total += s->terms[line];
+		total += AT(s->terms[line]);
 	return total;
 }
 
@@ -313,11 +314,11 @@ SHARED_FUNCTION real block_explore(const block_state *s, real far, real part, in
 SHARED_FUNCTION void block_solve(const block_state *s, int turn, const real *alpha)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const STATE real *self = block_array(s, BLOCK_STATE_INVERSE);
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	const STATE stored *self = block_array(s, BLOCK_STATE_INVERSE);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->bottom[n] = CHOOSE(self[n] > zero, block_slope_left(s, n, turn, alpha), zero);
+		AT(s->bottom[n]) = CHOOSE(AT(self[n]) > zero, block_slope_left(s, n, turn, alpha), zero);
 	WAIT;
 	if (WORK_ITEM == 0)
 		block_band_solve(net_band(s));
@@ -329,31 +330,32 @@ SHARED_FUNCTION void block_solve(const block_state *s, int turn, const real *alp
 			dot[m] = zero;
 		ROLLED
 		for (int n = line * s->length; n < (line + 1) * s->length; n++) {
-			way[n] = s->bottom[n];
+			AT(way[n]) = AT(s->bottom[n]);
 			for (int m = 0; m < BLOCK_MEMORY; m++)
-				dot[m] += way[n] * block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n];
+				dot[m] += AT(way[n]) *
+				          AT(block_array(s, BLOCK_STATE_CHANGE + block_slot(turn, m))[n]);
 		}
 		for (int m = 0; m < BLOCK_MEMORY; m++)
-			s->sums[m * s->lines + line] = dot[m];
+			AT(s->sums[m * s->lines + line]) = dot[m];
 	}
 }
 
 /* Poles that go with another go its way. */
 SHARED_FUNCTION void block_follow(const block_state *s)
 {
-	STATE real *way = block_array(s, BLOCK_STATE_WAY);
+	STATE stored *way = block_array(s, BLOCK_STATE_WAY);
 	ROLLED
 	for (int f = WORK_ITEM; f < s->followers; f += WORK_ITEMS)
-		way[s->follower[2 * f]] = way[s->follower[2 * f + 1]];
+		AT(way[s->follower[2 * f]]) = AT(way[s->follower[2 * f + 1]]);
 	WAIT;
 }
 
 SHARED_FUNCTION real block_trial_objective(const block_state *s)
 {
-	const STATE real *trial = block_array(s, BLOCK_STATE_TRIAL);
+	const STATE stored *trial = block_array(s, BLOCK_STATE_TRIAL);
 	ROLLED
 	for (int line = WORK_ITEM; line < s->count_v; line += WORK_ITEMS)
-		s->terms[line] = net_line_objective(s, trial, line);
+		AT(s->terms[line]) = net_line_objective(s, trial, line);
 	WAIT;
 	return net_terms_total(s);
 }

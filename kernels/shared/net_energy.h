@@ -22,16 +22,18 @@ typedef struct search_state {
 	int lines, length; /* samples along v, along u */
 	int colour_count, wide_colours;
 	int order_u, order_v, fairness;
-	STATE real *y, *base, *trial, *ways; /* [v][u] */
-	STATE real *moves; /* of the poles, by one probe and another: trial and the net after it */
-	GLOBAL const real *lower, *upper;
+	STATE stored *y, *base, *trial, *ways; /* [v][u] */
+	STATE stored *moves; /* of the poles, by one probe and another: trial and the net after it */
+	GLOBAL const stored *lower, *upper;
 	GLOBAL const int *first_u, *first_v; /* the first pole a sample sees */
 	GLOBAL const scalar *table_u, *table_v;
 	GLOBAL const int *colours, *directions, *members; /* members: numbers of poles */
 	GLOBAL const scalar *heights;                     /* of the members */
-	GLOBAL const real *samples;                       /* [line][sample][NET_SAMPLE_NUMBERS] */
-	GLOBAL real *kept;                                /* [line][sample][NET_KEPT_NUMBERS] */
-	LOCAL real *sums;                                 /* one a line */
+	GLOBAL const stored *samples;                     /* [line][sample][NET_SAMPLE_NUMBERS] */
+	GLOBAL stored *kept;                              /* [line][sample][NET_KEPT_NUMBERS] */
+	STATE stored *sums;                               /* one a line */
+	STATE stored *gathered;                           /* two numbers a work-item */
+	LOCAL int *vote;
 	real rounding, wide_probes;
 } search_state;
 
@@ -46,14 +48,14 @@ typedef struct net_pole {
 } net_pole;
 
 /* Its poles first to end - 1 of those that the line sees. */
-SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE real *column, int first,
+SHARED_FUNCTION net_pole net_collapse(const search_state *s, const STATE stored *column, int first,
                                       int end, GLOBAL const scalar *table)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	net_pole pole = { { zero, zero, zero, zero } };
 	ROLLED
 	for (int a = first; a < end; a++) {
-		const real y = column[a * s->columns];
+		const real y = AT(column[a * s->columns]);
 		pole.derivative[0] = FUSED(SPREAD(table[a]), y, pole.derivative[0]);
 		pole.derivative[1] = FUSED(SPREAD(table[NET_ORDER_V + a]), y, pole.derivative[1]);
 		pole.derivative[2] = FUSED(SPREAD(table[2 * NET_ORDER_V + a]), y, pole.derivative[2]);
@@ -86,48 +88,48 @@ SHARED_FUNCTION void net_jet_add(const search_state *s, net_jet *j, const net_po
 	}
 }
 
-SHARED_FUNCTION net_jet net_jet_kept(const search_state *s, GLOBAL const real *kept)
+SHARED_FUNCTION net_jet net_jet_kept(const search_state *s, GLOBAL const stored *kept)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const net_jet j = { kept[NET_KEPT_JET],
-		                kept[NET_KEPT_JET + 1],
-		                kept[NET_KEPT_JET + 2],
-		                kept[NET_KEPT_JET + 3],
-		                kept[NET_KEPT_JET + 4],
-		                kept[NET_KEPT_JET + 5],
-		                NET_THIRD ? kept[NET_KEPT_JET + 6] : zero,
-		                NET_THIRD ? kept[NET_KEPT_JET + 7] : zero,
-		                NET_THIRD ? kept[NET_KEPT_JET + 8] : zero,
-		                NET_THIRD ? kept[NET_KEPT_JET + 9] : zero };
+	const net_jet j = { AT(kept[NET_KEPT_JET]),
+		                AT(kept[NET_KEPT_JET + 1]),
+		                AT(kept[NET_KEPT_JET + 2]),
+		                AT(kept[NET_KEPT_JET + 3]),
+		                AT(kept[NET_KEPT_JET + 4]),
+		                AT(kept[NET_KEPT_JET + 5]),
+		                NET_THIRD ? AT(kept[NET_KEPT_JET + 6]) : zero,
+		                NET_THIRD ? AT(kept[NET_KEPT_JET + 7]) : zero,
+		                NET_THIRD ? AT(kept[NET_KEPT_JET + 8]) : zero,
+		                NET_THIRD ? AT(kept[NET_KEPT_JET + 9]) : zero };
 	(void)s;
 	return j;
 }
 
-SHARED_FUNCTION void net_jet_keep(const search_state *s, GLOBAL real *kept, const net_jet *j)
+SHARED_FUNCTION void net_jet_keep(const search_state *s, GLOBAL stored *kept, const net_jet *j)
 {
 	(void)s;
-	kept[NET_KEPT_JET] = j->at;
-	kept[NET_KEPT_JET + 1] = j->u;
-	kept[NET_KEPT_JET + 2] = j->v;
-	kept[NET_KEPT_JET + 3] = j->uu;
-	kept[NET_KEPT_JET + 4] = j->uv;
-	kept[NET_KEPT_JET + 5] = j->vv;
+	AT(kept[NET_KEPT_JET]) = j->at;
+	AT(kept[NET_KEPT_JET + 1]) = j->u;
+	AT(kept[NET_KEPT_JET + 2]) = j->v;
+	AT(kept[NET_KEPT_JET + 3]) = j->uu;
+	AT(kept[NET_KEPT_JET + 4]) = j->uv;
+	AT(kept[NET_KEPT_JET + 5]) = j->vv;
 	if (NET_THIRD) {
-		kept[NET_KEPT_JET + 6] = j->uuu;
-		kept[NET_KEPT_JET + 7] = j->uuv;
-		kept[NET_KEPT_JET + 8] = j->uvv;
-		kept[NET_KEPT_JET + 9] = j->vvv;
+		AT(kept[NET_KEPT_JET + 6]) = j->uuu;
+		AT(kept[NET_KEPT_JET + 7]) = j->uuv;
+		AT(kept[NET_KEPT_JET + 8]) = j->uvv;
+		AT(kept[NET_KEPT_JET + 9]) = j->vvv;
 	}
 }
 
-SHARED_FUNCTION surface_triple net_triple(GLOBAL const real *sample, int x, int z, int target,
+SHARED_FUNCTION surface_triple net_triple(GLOBAL const stored *sample, int x, int z, int target,
                                           real way)
 {
-	const surface_triple t = { sample[x], sample[target] + way, sample[z] };
+	const surface_triple t = { AT(sample[x]), AT(sample[target]) + way, AT(sample[z]) };
 	return t;
 }
 
-SHARED_FUNCTION surface_jet net_surface_jet(GLOBAL const real *sample, net_jet d)
+SHARED_FUNCTION surface_jet net_surface_jet(GLOBAL const stored *sample, net_jet d)
 {
 	surface_jet j;
 	j.at = triple_zero();
@@ -139,7 +141,7 @@ SHARED_FUNCTION surface_jet net_surface_jet(GLOBAL const real *sample, net_jet d
 	return j;
 }
 
-SHARED_FUNCTION surface_third net_surface_third(GLOBAL const real *sample, net_jet d)
+SHARED_FUNCTION surface_third net_surface_third(GLOBAL const stored *sample, net_jet d)
 {
 	surface_third t;
 	t.uuu = net_triple(sample, NET_SAMPLE_X_THIRD, NET_SAMPLE_Z_THIRD, NET_SAMPLE_TARGET_THIRD,
@@ -183,11 +185,11 @@ SHARED_FUNCTION real net_density(const search_state *s, surface_jet j)
 	return (FUSED(-two, gauss, mean2) * inverse) * root;
 }
 
-SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const real *sample,
+SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const stored *sample,
                                           net_jet d)
 {
 	const real zero = SPREAD(LITERAL(0.0));
-	const real fair = sample[NET_SAMPLE_FAIR];
+	const real fair = AT(sample[NET_SAMPLE_FAIR]);
 	const surface_jet j = net_surface_jet(sample, d);
 	real density;
 	if (NET_THIRD) {
@@ -199,20 +201,20 @@ SHARED_FUNCTION real net_sample_objective(const search_state *s, GLOBAL const re
 		density = net_density(s, j);
 	}
 	const real energy = fair * density;
-	return FUSED(sample[NET_SAMPLE_CLOSE] * d.at, d.at, CHOOSE(fair > zero, energy, zero));
+	return FUSED(AT(sample[NET_SAMPLE_CLOSE]) * d.at, d.at, CHOOSE(fair > zero, energy, zero));
 }
 
 /* The samples of one line with the net y. Where it `keeps`, terms and derivatives are. */
-SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real *y, int line,
+SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE stored *y, int line,
                                         int keeps)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
 	GLOBAL const scalar *along = s->table_u;
-	GLOBAL const real *sample = s->samples +
-	                            (size_t)(line * s->length) * (size_t)NET_SAMPLE_NUMBERS;
-	GLOBAL real *kept = s->kept + (size_t)(line * s->length) * (size_t)NET_KEPT_NUMBERS;
-	const STATE real *row = y + s->first_v[line] * s->columns;
+	GLOBAL const stored *sample = s->samples +
+	                              (size_t)(line * s->length) * (size_t)NET_SAMPLE_NUMBERS;
+	GLOBAL stored *kept = s->kept + (size_t)(line * s->length) * (size_t)NET_KEPT_NUMBERS;
+	const STATE stored *row = y + s->first_v[line] * s->columns;
 	/* Column c is in place c % order. */
 	net_pole ring[NET_ORDER_MOST];
 	real sum = zero;
@@ -229,7 +231,7 @@ SHARED_FUNCTION real net_line_objective(const search_state *s, const STATE real 
 			net_jet_add(s, &j, ring + (first + b) % NET_ORDER_U, b, along);
 		const real term = net_sample_objective(s, sample, j);
 		if (keeps) {
-			kept[NET_KEPT_TERM] = term;
+			AT(kept[NET_KEPT_TERM]) = term;
 			net_jet_keep(s, kept, &j);
 		}
 		sum += term;
@@ -261,12 +263,12 @@ SHARED_FUNCTION real whole_objective(const search_state *s)
 {
 	ROLLED
 	for (int line = WORK_ITEM; line < s->lines; line += WORK_ITEMS)
-		s->sums[line] = net_line_objective(s, s->trial, line, 0);
+		AT(s->sums[line]) = net_line_objective(s, s->trial, line, 0);
 	WAIT;
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int line = 0; line < s->lines; line++)
-		sum += s->sums[line];
+		sum += AT(s->sums[line]);
 	WAIT;
 	return sum;
 }

@@ -35,6 +35,10 @@ enum {
 /* Nets of working state: y, base, trial, moves of a second probe and the remembered ways. */
 #define NET_STATE_COUNT (4 + NET_WAYS - 1)
 
+/* Numbers of all of it: these, a sum a line of samples, two numbers a work-item. */
+#define NET_STATE_NUMBERS(poles, lines, work_items)                                                \
+	(NET_STATE_COUNT * (poles) + (lines) + 2 * (work_items))
+
 /* One value a search each, beyond SEARCH_SETTING_COUNT. */
 enum {
 	NET_SETTING_ROUNDING = SEARCH_SETTING_COUNT, /* e^2 of sqrt(K^2 + e^2) */

@@ -38,8 +38,8 @@ SHARED_FUNCTION void net_move_begin(const search_state *s, int direction, net_mo
 	for (int k = move->row; k < move->row_end; k++) {
 		ROLLED
 		for (int i = move->column; i < move->column_end; i++) {
-			s->moves[k * s->columns + i] = SPREAD(LITERAL(0.0));
-			s->moves[s->nodes + k * s->columns + i] = SPREAD(LITERAL(0.0));
+			AT(s->moves[k * s->columns + i]) = SPREAD(LITERAL(0.0));
+			AT(s->moves[s->nodes + k * s->columns + i]) = SPREAD(LITERAL(0.0));
 		}
 	}
 }
@@ -48,7 +48,8 @@ SHARED_FUNCTION void net_move_begin(const search_state *s, int direction, net_mo
 SHARED_FUNCTION real net_member_at(const search_state *s, int member, real step)
 {
 	const int n = s->members[member];
-	return step_from(s, s->y[n], SPREAD(s->heights[member]) * step, s->lower[n], s->upper[n]);
+	return step_from(s, AT(s->y[n]), SPREAD(s->heights[member]) * step, AT(s->lower[n]),
+	                 AT(s->upper[n]));
 }
 
 /* How far it moves each, as the moves of one of the probes. */
@@ -58,7 +59,7 @@ SHARED_FUNCTION void net_move_place(const search_state *s, const net_move *move,
 	ROLLED
 	for (int m = move->first; m < move->end; m++) {
 		const int n = s->members[m];
-		s->moves[probe * s->nodes + n] = net_member_at(s, m, step) - s->y[n];
+		AT(s->moves[probe * s->nodes + n]) = net_member_at(s, m, step) - AT(s->y[n]);
 	}
 }
 
@@ -69,11 +70,11 @@ SHARED_FUNCTION real net_move_before(const search_state *s, const net_move *move
 	ROLLED
 	for (int line = move->line; line < move->line_end; line++) {
 		const int at = line * s->length + move->sample;
-		GLOBAL const real *kept = s->kept + (size_t)at * (size_t)NET_KEPT_NUMBERS;
+		GLOBAL const stored *kept = s->kept + (size_t)at * (size_t)NET_KEPT_NUMBERS;
 		real line_sum = SPREAD(LITERAL(0.0));
 		ROLLED
 		for (int i = move->sample; i < move->sample_end; i++, kept += NET_KEPT_NUMBERS)
-			line_sum += kept[NET_KEPT_TERM];
+			line_sum += AT(kept[NET_KEPT_TERM]);
 		sum += line_sum;
 	}
 	return sum;
@@ -90,8 +91,8 @@ SHARED_FUNCTION void net_move_line(const search_state *s, const net_move *move, 
 	const int end_row = move->row_end - row < NET_ORDER_V ? move->row_end - row : NET_ORDER_V;
 	GLOBAL const scalar *table = s->table_v + line * NET_TABLE_SIZE(NET_ORDER_V);
 	GLOBAL const scalar *along = s->table_u + move->sample * NET_TABLE_SIZE(NET_ORDER_U);
-	GLOBAL const real *sample = s->samples + (size_t)at * (size_t)NET_SAMPLE_NUMBERS;
-	GLOBAL real *kept = s->kept + (size_t)at * (size_t)NET_KEPT_NUMBERS;
+	GLOBAL const stored *sample = s->samples + (size_t)at * (size_t)NET_SAMPLE_NUMBERS;
+	GLOBAL stored *kept = s->kept + (size_t)at * (size_t)NET_KEPT_NUMBERS;
 	net_pole ring[NET_PROBES * NET_ORDER_MOST];
 	real found[NET_PROBES] = { SPREAD(LITERAL(0.0)), SPREAD(LITERAL(0.0)) };
 	int reached = move->column;
@@ -116,12 +117,13 @@ SHARED_FUNCTION void net_move_line(const search_state *s, const net_move *move, 
 			for (int c = begin; c < end; c++)
 				net_jet_add(s, &j, ring + c % NET_ORDER_U * NET_PROBES + p, c - first, along);
 			if (pass == NET_PASS_TAKE) {
-				kept[NET_KEPT_TERM] = CHOOSE(taken, kept[NET_KEPT_FOUND], kept[NET_KEPT_TERM]);
+				AT(kept[NET_KEPT_TERM]) = CHOOSE(taken, AT(kept[NET_KEPT_FOUND]),
+				                                 AT(kept[NET_KEPT_TERM]));
 				net_jet_keep(s, kept, &j);
 				continue;
 			}
 			const real term = net_sample_objective(s, sample, j);
-			kept[NET_KEPT_FOUND] = term;
+			AT(kept[NET_KEPT_FOUND]) = term;
 			found[p] += term;
 		}
 		along += NET_TABLE_SIZE(NET_ORDER_U);
@@ -178,7 +180,7 @@ SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int di
 	}
 	ROLLED
 	for (int m = move.first; m < move.end; m++)
-		s->y[s->members[m]] = net_member_at(s, m, step);
+		AT(s->y[s->members[m]]) = net_member_at(s, m, step);
 	return CHOOSE(step < zero, -step, step);
 }
 

@@ -20,7 +20,7 @@ SHARED_FUNCTION real search_wide_sweep(const search_state *s, int colours, int t
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real due = turn % WIDE_TURNS == 0 ? h : CHOOSE(p->wide_pays > zero, h, zero);
-	const int swept = ANY(due > zero) ? colours : 0;
+	const int swept = ANY_BESIDE(s, due > zero) ? colours : 0;
 	const real longest = search_sweep(s, 0, swept, due, extra);
 	const int nodes = swept > 0 ? s->nodes : 0;
 	if (ALONE && swept == 0) {
@@ -29,7 +29,7 @@ SHARED_FUNCTION real search_wide_sweep(const search_state *s, int colours, int t
 	}
 	ROLLED
 	for (int n = WORK_ITEM; n < nodes; n += WORK_ITEMS)
-		s->trial[n] = s->y[n];
+		AT(s->trial[n]) = AT(s->y[n]);
 	WAIT;
 	const real found = whole_objective(s);
 	p->wide = swept > 0 ? found : p->objective;
@@ -39,7 +39,7 @@ SHARED_FUNCTION real search_wide_sweep(const search_state *s, int colours, int t
 
 /* One iteration of the lanes that are active. Turn 0 only evaluates the start. */
 SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active, mask unlimited,
-                                    LOCAL real *gathered, search_progress *p)
+                                    search_progress *p)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
@@ -48,7 +48,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	mask going = unlimited;
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->base[n] = s->y[n];
+		AT(s->base[n]) = AT(s->y[n]);
 	WAIT;
 	/* Every `if` around a barrier doubles what PoCL compiles: where there are any, turn 0 goes through sweeps
 	 * of nothing, and what is not wanted is worked and left. */
@@ -60,7 +60,7 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 	const real wide = search_wide_sweep(s, wide_colours, turn, h, &extra, p);
 	longest = search_sweep(s, wide_colours, colours, h, &extra);
 	longest = CHOOSE(wide > longest, wide, longest);
-	search_gather(gathered, &longest, &extra);
+	search_gather(s, &longest, &extra);
 	if (turn > 0) {
 		search_count(p, extra);
 		going = active & (longest > zero);
@@ -78,33 +78,34 @@ SHARED_FUNCTION void search_iterate(const search_state *s, int turn, mask active
 /* A whole search: y from and back to `values` (s->nodes of real), settings and outcome as in
  * search_layout.h. */
 SHARED_FUNCTION void search_run(const search_state *s, int iteration_limit,
-                                GLOBAL const real *settings, GLOBAL real *values,
-                                GLOBAL real *outcome, LOCAL real *gathered)
+                                GLOBAL const stored *settings, GLOBAL stored *values,
+                                GLOBAL stored *outcome)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real limit = SPREAD((scalar)iteration_limit);
-	const real last_step = settings[SEARCH_SETTING_LAST_STEP];
-	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero, zero,
-		                  zero };
+	const real last_step = AT(settings[SEARCH_SETTING_LAST_STEP]);
+	search_progress p = {
+		zero, AT(settings[SEARCH_SETTING_FIRST_STEP]), zero, zero, zero, zero, zero, zero
+	};
 	real start = zero;
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		s->y[n] = values[n];
+		AT(s->y[n]) = AT(values[n]);
 	search_prepare(s);
 	WAIT;
 	ROLLED
 	for (int turn = 0;; turn++) {
 		const mask unlimited = p.iterations < limit;
 		const mask active = (p.step > last_step) & unlimited;
-		if (turn > 0 && !ANY(active))
+		if (turn > 0 && !ANY_BESIDE(s, active))
 			break;
-		search_iterate(s, turn, active, unlimited, gathered, &p);
+		search_iterate(s, turn, active, unlimited, &p);
 		if (turn == 0)
 			start = p.objective;
 	}
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		values[n] = s->y[n];
+		AT(values[n]) = AT(s->y[n]);
 	if (WORK_ITEM == 0)
 		search_tell(&p, start, outcome);
 }

@@ -22,6 +22,11 @@ enum {
 /* Arrays of nodes that a search works in: five, remembered ways, five derivatives. */
 #define SEARCH_STATE_COUNT (5 + GRID_WAYS - 1 + 5)
 
+/* Numbers of a search over an offset grid that work-items share: these arrays, a sum a waterline, two numbers a
+ * work-item. */
+#define SEARCH_STATE_NUMBERS(nodes, waterlines, work_items)                                        \
+	(SEARCH_STATE_COUNT * (nodes) + (waterlines) + 2 * (work_items))
+
 /* What an offset grid is to be low in. */
 enum {
 	GRID_BENDING,          /* k1^2 + k2^2, both directions alike */

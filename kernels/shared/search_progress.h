@@ -27,15 +27,15 @@ SHARED_FUNCTION void search_count(search_progress *p, real probes)
 }
 
 /* Written by one work-item. */
-SHARED_FUNCTION void search_tell(const search_progress *p, real start, GLOBAL real *outcome)
+SHARED_FUNCTION void search_tell(const search_progress *p, real start, GLOBAL stored *outcome)
 {
-	outcome[SEARCH_OUTCOME_START] = start;
-	outcome[SEARCH_OUTCOME_END] = p->objective;
-	outcome[SEARCH_OUTCOME_STEP] = p->step;
-	outcome[SEARCH_OUTCOME_ITERATIONS] = p->iterations;
-	outcome[SEARCH_OUTCOME_MOVES] = p->moves;
-	outcome[SEARCH_OUTCOME_EXTRA_HIGH] = p->extra_high;
-	outcome[SEARCH_OUTCOME_EXTRA_LOW] = p->extra_low;
+	AT(outcome[SEARCH_OUTCOME_START]) = start;
+	AT(outcome[SEARCH_OUTCOME_END]) = p->objective;
+	AT(outcome[SEARCH_OUTCOME_STEP]) = p->step;
+	AT(outcome[SEARCH_OUTCOME_ITERATIONS]) = p->iterations;
+	AT(outcome[SEARCH_OUTCOME_MOVES]) = p->moves;
+	AT(outcome[SEARCH_OUTCOME_EXTRA_HIGH]) = p->extra_high;
+	AT(outcome[SEARCH_OUTCOME_EXTRA_LOW]) = p->extra_low;
 }
 
 #endif

@@ -2,7 +2,7 @@
  * run side by side, one a lane; in OpenCL the work-items of a group share the directions of a colour.
  *
  * Defined before this is included:
- *   search_state       nodes; y, base, trial: STATE real *; lower, upper: GLOBAL const real *;
+ *   search_state       nodes; y, base, trial: STATE stored *; lower, upper: GLOBAL const stored *;
  *                      colour_count; wide_colours, those of them, the first, that wait for their turn
  *                      (multilevel.h), and wide_probes, a real, two for each of their directions
  *   void sweeps_begin(const search_state *)
@@ -42,17 +42,18 @@ SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int e
 }
 
 /* The longest step and the number of probes of all work-items: a maximum and a sum of whole numbers,
- * so their order does not matter. gathered has two values a work-item. */
-SHARED_FUNCTION void search_gather(LOCAL real *gathered, real *longest, real *extra)
+ * so their order does not matter. */
+SHARED_FUNCTION void search_gather(const search_state *s, real *longest, real *extra)
 {
-	gathered[WORK_ITEM] = *longest;
-	gathered[WORK_ITEMS + WORK_ITEM] = *extra;
+	STATE stored *gathered = s->gathered;
+	AT(gathered[WORK_ITEM]) = *longest;
+	AT(gathered[WORK_ITEMS + WORK_ITEM]) = *extra;
 	WAIT;
 	*extra = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int w = 0; w < WORK_ITEMS; w++) {
-		*longest = CHOOSE(gathered[w] > *longest, gathered[w], *longest);
-		*extra += gathered[WORK_ITEMS + w];
+		*longest = CHOOSE(AT(gathered[w]) > *longest, AT(gathered[w]), *longest);
+		*extra += AT(gathered[WORK_ITEMS + w]);
 	}
 	WAIT;
 }

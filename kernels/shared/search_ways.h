@@ -3,7 +3,7 @@
  *
  * Defined before this is included, beside what search_sweep.h asks for:
  *   SEARCH_WAYS        ways, this iteration's among them
- *   search_state       ways: STATE real *, SEARCH_WAYS - 1 arrays of nodes
+ *   search_state       ways: STATE stored *, SEARCH_WAYS - 1 arrays of nodes
  *   real step_from(const search_state *, real y, real step, real lower, real upper)
  *                      where a step leads from y in a box */
 #ifndef BATTEN_SHARED_SEARCH_WAYS_H
@@ -30,11 +30,11 @@ SHARED_FUNCTION void search_extrapolate(const search_state *s, const real *facto
 {
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
-		real step = factors[0] * (s->y[n] - s->base[n]);
+		real step = factors[0] * (AT(s->y[n]) - AT(s->base[n]));
 		ROLLED
 		for (int w = 1; w < SEARCH_WAYS; w++)
-			step += factors[w] * s->ways[(w - 1) * s->nodes + n];
-		s->trial[n] = step_from(s, s->y[n], step, s->lower[n], s->upper[n]);
+			step += factors[w] * AT(s->ways[(w - 1) * s->nodes + n]);
+		AT(s->trial[n]) = step_from(s, AT(s->y[n]), step, AT(s->lower[n]), AT(s->upper[n]));
 	}
 	WAIT;
 }
@@ -139,7 +139,7 @@ SHARED_FUNCTION void search_probe_place(search_model *model, int probe, const re
  * objective falls. Lanes that are not `going` keep everything. */
 SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int turn, search_progress *p)
 {
-	const int probe_limit = !ANY(going) ? -1 : turn > 0 ? SEARCH_PROBE_LIMIT : 0;
+	const int probe_limit = !ANY_BESIDE(s, going) ? -1 : turn > 0 ? SEARCH_PROBE_LIMIT : 0;
 	const int slot = turn % (SEARCH_WAYS - 1); /* the oldest is forgotten */
 	const real zero = SPREAD(LITERAL(0.0));
 	const mask moved = going;
@@ -172,7 +172,7 @@ SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int turn,
 		if (probe <= SEARCH_MODEL_PROBES)
 			continue;
 		going = gain;
-		if (!ANY(going))
+		if (!ANY_BESIDE(s, going))
 			break;
 	}
 	search_count(p, probes);
@@ -181,9 +181,9 @@ SHARED_FUNCTION void search_pattern(const search_state *s, mask going, int turn,
 	search_extrapolate(s, best);
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
-		STATE real *way = s->ways + slot * s->nodes + n;
-		s->y[n] = s->trial[n];
-		*way = CHOOSE(moved, s->y[n] - s->base[n], *way);
+		STATE stored *way = s->ways + slot * s->nodes + n;
+		AT(s->y[n]) = AT(s->trial[n]);
+		AT(*way) = CHOOSE(moved, AT(s->y[n]) - AT(s->base[n]), AT(*way));
 	}
 	WAIT;
 }
@@ -193,7 +193,7 @@ SHARED_FUNCTION void search_prepare(const search_state *s)
 {
 	ROLLED
 	for (int n = WORK_ITEM; n < (SEARCH_WAYS - 1) * s->nodes; n += WORK_ITEMS)
-		s->ways[n] = SPREAD(LITERAL(0.0));
+		AT(s->ways[n]) = SPREAD(LITERAL(0.0));
 }
 
 #endif

@@ -15,9 +15,9 @@
 SHARED_FUNCTION real textbook_explore(const search_state *s, int node, real h, mask active,
                                       real before, real *probes)
 {
-	const real lower = s->lower[node];
-	const real upper = s->upper[node];
-	const real old = s->trial[node];
+	const real lower = AT(s->lower[node]);
+	const real upper = AT(s->upper[node]);
+	const real old = AT(s->trial[node]);
 	const real enough = before - SPREAD(GAIN_FLOOR) * before;
 	real here = old;
 	real best = before;
@@ -25,10 +25,10 @@ SHARED_FUNCTION real textbook_explore(const search_state *s, int node, real h, m
 	mask open = active & (lower < upper);
 	WAIT;
 	ROLLED
-	for (int turn = 0; turn < 2 && ANY(open); turn++) {
+	for (int turn = 0; turn < 2 && ANY_BESIDE(s, open); turn++) {
 		const real moved = CHOOSE(open, move_clamped(old, step, lower, upper), here);
 		if (WORK_ITEM == 0)
-			s->trial[node] = moved;
+			AT(s->trial[node]) = moved;
 		WAIT;
 		const real found = whole_objective(s);
 		const mask gain = open & (found < enough);
@@ -39,7 +39,7 @@ SHARED_FUNCTION real textbook_explore(const search_state *s, int node, real h, m
 		step = -h;
 	}
 	if (WORK_ITEM == 0)
-		s->trial[node] = here;
+		AT(s->trial[node]) = here;
 	WAIT;
 	return best;
 }
@@ -53,7 +53,7 @@ SHARED_FUNCTION real textbook_sweep(const search_state *s, real h, mask active, 
 		ROLLED
 		for (int i = 0; i < s->stations; i++) {
 			const int node = node_of(s, i, k);
-			if (ANY(s->lower[node] < s->upper[node]))
+			if (ANY_BESIDE(s, AT(s->lower[node]) < AT(s->upper[node])))
 				objective = textbook_explore(s, node, h, active, objective, probes);
 		}
 	}
@@ -65,11 +65,11 @@ SHARED_FUNCTION void textbook_take(const search_state *s, mask gained)
 {
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
-		const real y = s->y[n];
-		const real found = s->trial[n];
-		const real pattern = move_clamped(found, found - y, s->lower[n], s->upper[n]);
-		s->y[n] = CHOOSE(gained, found, y);
-		s->trial[n] = CHOOSE(gained, pattern, y);
+		const real y = AT(s->y[n]);
+		const real found = AT(s->trial[n]);
+		const real pattern = move_clamped(found, found - y, AT(s->lower[n]), AT(s->upper[n]));
+		AT(s->y[n]) = CHOOSE(gained, found, y);
+		AT(s->trial[n]) = CHOOSE(gained, pattern, y);
 	}
 	WAIT;
 }
@@ -77,27 +77,28 @@ SHARED_FUNCTION void textbook_take(const search_state *s, mask gained)
 /* A whole search: y from and back to `values` (s->nodes of real), settings and outcome as in
  * search_layout.h. */
 SHARED_FUNCTION void textbook_run(const search_state *s, int iteration_limit,
-                                  GLOBAL const real *settings, GLOBAL real *values,
-                                  GLOBAL real *outcome)
+                                  GLOBAL const stored *settings, GLOBAL stored *values,
+                                  GLOBAL stored *outcome)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real one = SPREAD(LITERAL(1.0));
 	const real limit = SPREAD((scalar)iteration_limit);
-	const real last_step = settings[SEARCH_SETTING_LAST_STEP];
-	search_progress p = { zero, settings[SEARCH_SETTING_FIRST_STEP], zero, zero, zero, zero, zero,
-		                  zero };
+	const real last_step = AT(settings[SEARCH_SETTING_LAST_STEP]);
+	search_progress p = {
+		zero, AT(settings[SEARCH_SETTING_FIRST_STEP]), zero, zero, zero, zero, zero, zero
+	};
 	real pattern = zero; /* 1 where trial is a pattern point */
 	real start = zero;
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS) {
-		s->y[n] = values[n];
-		s->trial[n] = values[n];
+		AT(s->y[n]) = AT(values[n]);
+		AT(s->trial[n]) = AT(values[n]);
 	}
 	WAIT;
 	ROLLED
 	for (int turn = 0;; turn++) {
 		const mask active = (p.step > last_step) & (p.iterations < limit);
-		if (turn > 0 && !ANY(active))
+		if (turn > 0 && !ANY_BESIDE(s, active))
 			break;
 		const real about = whole_objective(s);
 		if (turn == 0)
@@ -117,7 +118,7 @@ SHARED_FUNCTION void textbook_run(const search_state *s, int iteration_limit,
 	}
 	ROLLED
 	for (int n = WORK_ITEM; n < s->nodes; n += WORK_ITEMS)
-		values[n] = s->y[n];
+		AT(values[n]) = AT(s->y[n]);
 	if (WORK_ITEM == 0)
 		search_tell(&p, start, outcome);
 }

@@ -26,14 +26,23 @@ forbid '(^|[^A-Za-z0-9_])(native_|half_)?(sin|cos|tan|asin|acos|atan|atan2|exp|e
 forbid 'atom(ic)?_[a-z]+[ \t]*\(' 'an atomic operation'
 forbid 'cl-(fast-relaxed|unsafe|mad|finite)|FP_CONTRACT[ \t]+ON' 'relaxed arithmetic'
 
-# Every precision with every kind of lanes and of state, each pair once at least; the header of built-in
-# functions takes most of a build.
+# Every precision with every kind of lanes and of state, each pair once at least, and searches abreast; the
+# header of built-in functions takes most of a build.
 count=0
 for file in "$embedded"/*.cl; do
-	for options in '0 1 local' '0 2 global' '0 16 local' '1 1 global' '1 2 local' '1 16 global'; do
+	abreast=
+	case $(basename "$file") in
+	multilevel.cl | textbook.cl | block_search.cl | net_search.cl | net_block.cl)
+		abreast='1,1,global,-DSTATE_IS_GLOBAL,-DBATTEN_ABREAST=4 0,1,global,-DSTATE_IS_GLOBAL,-DBATTEN_ABREAST=8,-DBATTEN_ALONE'
+		;;
+	esac
+	for options in 0,1,local 0,2,global 0,16,local,-DBATTEN_PREFETCH 1,1,global 1,2,local \
+		1,16,global,-DBATTEN_PREFETCH $abreast; do
 		# shellcheck disable=SC2086
-		set -- $options
+		set -- $(echo "$options" | tr , ' ')
 		options="-DBATTEN_DOUBLE=$1 -DBATTEN_LANES=$2 -DSTATE=$3"
+		shift 3
+		options="$options $*"
 		# shellcheck disable=SC2086
 		if ! "$clang" -x cl -cl-std=CL1.2 -target spir64-unknown-unknown -Xclang \
 			-finclude-default-header -fsyntax-only -Wall -Wextra -Wno-unused-function \

@@ -94,7 +94,8 @@ static void test_work_groups(void **state)
 	net_case c = net_case_wigley(0.1);
 	check(&c, (net_shape){ BATTEN_F64, 1, 7, BATTEN_FAIRNESS_BENDING, 0 });
 	check(&c, (net_shape){ BATTEN_F64, 1, 64, BATTEN_FAIRNESS_BENDING, 0 });
-	check(&c, (net_shape){ BATTEN_F32, 2, 3, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F32, 4, 4, BATTEN_FAIRNESS_BENDING, 0 });
+	check(&c, (net_shape){ BATTEN_F64, 4, 12, BATTEN_FAIRNESS_BENDING, 0 });
 	net_case_close(&c);
 }
 

@@ -33,6 +33,9 @@ static void test_work_groups(void **state)
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 4, 3, false, GRID_BENDING, false, false },
 		{ 0, BATTEN_F32, 1, 32, false, GRID_BENDING, false, false },
+		/* Abreast, each search one work-item's, and three's. */
+		{ 0, BATTEN_F64, 4, 4, true, GRID_BENDING, false, false },
+		{ 0, BATTEN_F32, 8, 24, true, GRID_BENDING, false, false },
 	};
 	check("bsra_trawler", shapes, sizeof shapes / sizeof shapes[0]);
 }
@@ -52,11 +55,11 @@ static void test_textbook_and_other_fairness(void **state)
 	(void)state;
 	static const search_shape shapes[] = {
 		{ 0, BATTEN_F64, 8, 1, true, GRID_BENDING, true, false },
-		{ 0, BATTEN_F32, 1, 7, false, GRID_BENDING, true, false },
+		{ 0, BATTEN_F32, 4, 8, true, GRID_BENDING, true, false },
 		{ 0, BATTEN_F64, 2, 1, false, GRID_BENDING_WEIGHTED, false, false },
 		{ 0, BATTEN_F32, 16, 1, false, GRID_MEAN, false, false },
 		{ 0, BATTEN_F64, 8, 1, false, GRID_GAUSS, false, false },
-		{ 0, BATTEN_F64, 1, 5, true, GRID_VARIATION, false, false },
+		{ 0, BATTEN_F64, 2, 6, true, GRID_VARIATION, false, false },
 	};
 	check("npl_parent", shapes, sizeof shapes / sizeof shapes[0]);
 }

@@ -69,10 +69,9 @@ static void test_shapes_equal_the_c_path(void **state)
 		batten_precision precision;
 		unsigned lanes, work_group;
 		bool analytic;
-	} shapes[] = { { BATTEN_F64, 8, 1, false },
-		           { BATTEN_F32, 16, 1, false },
-		           { BATTEN_F64, 1, 64, false },
-		           { BATTEN_F32, 2, 1, true } };
+	} shapes[] = { { BATTEN_F64, 8, 1, false },  { BATTEN_F32, 16, 1, false },
+		           { BATTEN_F64, 1, 64, false }, { BATTEN_F64, 4, 4, false },
+		           { BATTEN_F32, 8, 24, false }, { BATTEN_F32, 2, 1, true } };
 	search_case c = search_case_open("npl_parent", 0.01, true);
 	for (size_t s = 0; s < sizeof shapes / sizeof shapes[0]; s++) {
 		batten_search_options options;
