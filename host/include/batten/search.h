@@ -66,9 +66,10 @@ typedef struct batten_search_options {
 	double last_step;                  /* of h; 0 takes 2e-7 in f64, 2e-6 in f32, ten times that for
 	                                      MULTILEVEL without variation of curvature and interior penalty */
 	unsigned iteration_limit;          /* 400 */
-	unsigned lanes;      /* searches a group runs side by side: 1, 2, 4, 8, 16; 0 chooses */
-	unsigned work_group; /* work-items of a group, 1024 at most; 0 chooses. A multiple of more lanes than
-	                        one, which may then be any power of two: each works one of the lanes, as on a GPU */
+	unsigned lanes; /* searches a group runs side by side: 1, 2, 4, 8, 16; 0 chooses */
+	/* Work-items of a group, at most 1024; 0 chooses. Where they are a multiple of more lanes than one, which may
+	 * then be any power of two, each works one of the lanes, as on a GPU. */
+	unsigned work_group;
 	/* The rest is of searches over offset grids only. */
 	batten_fairness fairness; /* BATTEN_FAIRNESS_BENDING; VARIATION takes both weights 1 */
 	/* Weights of the squared normal curvature along the tangent of the waterline, k11, and square to
