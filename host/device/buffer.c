@@ -52,7 +52,9 @@ static device_buffer *take_spare(device_session *session, size_t size)
 		device_buffer *spare = session->spares[i];
 		if (spare->room < size || spare->room / 4 > size)
 			continue;
-		session->spares[i] = session->spares[--session->spare_count];
+		session->spare_count--;
+		memmove(&session->spares[i], &session->spares[i + 1],
+		        (session->spare_count - i) * sizeof session->spares[0]);
 		spare->size = size;
 		return spare;
 	}
@@ -135,10 +137,17 @@ void device_buffer_destroy(device_buffer *buffer)
 	if (!buffer)
 		return;
 	device_session *session = buffer->session;
-	if (session->entry->facts.is_cpu || buffer->room == 0 || session->spare_count == SPARES_MOST)
+	if (session->entry->facts.is_cpu || buffer->room == 0) {
 		release(buffer);
-	else
-		session->spares[session->spare_count++] = buffer;
+		return;
+	}
+	if (session->spare_count == SPARES_MOST) {
+		release(session->spares[0]);
+		session->spare_count--;
+		memmove(&session->spares[0], &session->spares[1],
+		        session->spare_count * sizeof session->spares[0]);
+	}
+	session->spares[session->spare_count++] = buffer;
 }
 
 static batten_status check_size(const device_buffer *buffer, size_t size, const char *what)

@@ -26,7 +26,7 @@ struct device_system {
 	atomic_size_t live; /* OpenCL objects not yet released */
 };
 
-enum { SPARES_MOST = 32 };
+enum { SPARES_MOST = 16 }; /* a launch has 14 buffers at most */
 
 struct device_session {
 	batten_context *context;
@@ -35,7 +35,8 @@ struct device_session {
 	cl_context environment;
 	bool borrowed; /* the environment is another session's */
 	cl_command_queue queue;
-	device_buffer *spares[SPARES_MOST]; /* let go, and kept to be taken again; not on a CPU */
+	device_buffer *
+		spares[SPARES_MOST]; /* let go, the newest last, and kept to be taken again; not on a CPU */
 	size_t spare_count;
 	char error[512];
 };
