@@ -1,8 +1,8 @@
 /* The multilevel pattern search (Hooke and Jeeves; thesis 7.2), whole searches in one launch.
  *
  * A work-group runs BATTEN_LANES searches side by side, one a lane of `real`; its work-items share
- * the directions of each colour. On a CPU: many lanes, one work-item. On a GPU: one lane, many
- * work-items. Every direction and every sum is worked in one fixed order by one work-item, so the
+ * the directions of each colour. On a CPU: many lanes, one work-item. On a GPU: several searches abreast
+ * (dialect.h), many work-items each. Every direction and every sum is worked in one fixed order by one work-item, so the
  * shape does not change a bit of the result; the C path is the same source.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for grids whose state

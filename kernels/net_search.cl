@@ -2,8 +2,8 @@
  * searches in one launch.
  *
  * A work-group runs BATTEN_LANES searches side by side, one a lane of `real`; its work-items share
- * the directions of each colour. On a CPU: many lanes, one work-item. On a GPU: one lane, many
- * work-items. Every direction and every sum is worked in one fixed order by one work-item, so the
+ * the directions of each colour. On a CPU: many lanes, one work-item. On a GPU: several searches abreast
+ * (dialect.h), many work-items each. Every direction and every sum is worked in one fixed order by one work-item, so the
  * shape does not change a bit of the result.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for nets whose state does
