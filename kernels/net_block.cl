@@ -1,8 +1,8 @@
 /* The block search over control nets, whole searches in one launch: bending or the mean curvature.
  *
  * A work-group works a range of the searches, BATTEN_LANES of them at a time, one a lane of `real`; its work-items
- * share the lines of samples, then the columns of the net. On a CPU: many lanes, one work-item. On a GPU: one lane,
- * many work-items. Every line and every sum is worked in one fixed order by one work-item, so the shape does not
+ * share the lines of samples, then the columns of the net. On a CPU: many lanes, one work-item. On a GPU: several
+ * searches abreast (dialect.h), many work-items each. Every line and every sum is worked in one fixed order by one work-item, so the shape does not
  * change a bit of the result; the C path is the same source.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V, NET_POINTS_U,
