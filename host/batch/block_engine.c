@@ -13,7 +13,7 @@
  * that come free take the next search, so the more of them, the less do lanes stand idle. A GPU has as many groups
  * at work as it takes to wait for memory side by side (bench/README.md, what was tried). */
 enum { BLOCK_BYTES = 8 << 20, SEARCHES_A_LANE = 32, GROUPS_A_UNIT = 2 };
-enum { GPU_BYTES = 160 << 20, GPU_GROUPS_A_UNIT = 8, GPU_ABREAST = 4, GPU_TOGETHER = 16 };
+enum { GPU_GROUPS_A_UNIT = 8, GPU_ABREAST = 4, GPU_TOGETHER = 16 };
 
 /* Lines of probes that are kept: all where there are hats or rounds. */
 static size_t slots_of(const search_plan *plan, const batch_engine_recipe *recipe,
@@ -70,8 +70,7 @@ size_t block_engine_block(const batch_engine *engine, const search_plan *plan)
 	const size_t lanes = engine->recipe.lanes;
 	const size_t search_bytes = BLOCK_INPUT_COUNT * shape.lines * shape.length *
 	                            search_scalar_size(plan);
-	const size_t limit = batch_engine_launch_bytes(
-		engine, batch_engine_device(engine)->is_cpu ? BLOCK_BYTES : GPU_BYTES);
+	const size_t limit = batch_engine_search_bytes(engine, BLOCK_BYTES);
 	size_t searches = units_of(engine) * lanes * SEARCHES_A_LANE;
 	if (searches > limit / search_bytes)
 		searches = limit / search_bytes;

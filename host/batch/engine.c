@@ -56,6 +56,11 @@ bool batch_engine_stands_abreast(unsigned lanes, unsigned work_group)
 	return lanes > 1 && work_group % lanes == 0;
 }
 
+size_t batch_engine_test_count(unsigned lanes)
+{
+	return lanes < BATCH_TEST_MOST / 2 ? 2 * (size_t)lanes + 1 : BATCH_TEST_MOST;
+}
+
 size_t batch_engine_together(const batch_engine_recipe *recipe)
 {
 	return recipe->abreast ? recipe->work_group / recipe->lanes : recipe->work_group;
@@ -259,6 +264,12 @@ size_t batch_engine_launch_bytes(const batch_engine *e, size_t most)
 	if (device > 0 && most > device)
 		most = (size_t)device;
 	return host > 0 && most > host ? host : most;
+}
+
+size_t batch_engine_search_bytes(const batch_engine *e, size_t most)
+{
+	enum { GPU_BYTES = 160 << 20 };
+	return batch_engine_launch_bytes(e, batch_engine_device(e)->is_cpu ? most : GPU_BYTES);
 }
 
 batten_status batch_engine_hand(batch_engine *e, size_t number, batch_engine **out)

@@ -20,7 +20,7 @@ typedef struct batch_engine_recipe {
 	size_t device;
 	batten_precision precision;
 	unsigned lanes, work_group;
-	bool abreast;      /* each work-item works one of the lanes by itself (dialect.h) */
+	bool abreast;      /* a lane is its own work-items', one or several (dialect.h) */
 	char options[160]; /* of the compiler, beyond precision and lanes */
 } batch_engine_recipe;
 
@@ -60,10 +60,15 @@ bool batch_engine_stands_abreast(unsigned lanes, unsigned work_group);
 /* Of so many groups those whose state, group_bytes each, fits a GPU beside that of others at work. */
 size_t batch_engine_groups_most(const batch_engine *e, size_t groups, size_t group_bytes);
 
+/* Searches of a self-test: two full groups of lanes and one more, so that idle lanes are met too; where lanes are many,
+ * BATCH_TEST_MOST, no more. */
+enum { BATCH_TEST_MOST = 65 };
+size_t batch_engine_test_count(unsigned lanes);
+
 /* Work-items that share a search. */
 size_t batch_engine_together(const batch_engine_recipe *recipe);
 
-/* How searches are shared out: each queue gets `share` of them; a group has one queue, or abreast one a work-item. */
+/* How searches are shared out: each queue gets `share` of them; a group has one queue, or abreast one a lane. */
 typedef struct batch_engine_queues {
 	size_t share, count, groups;
 } batch_engine_queues;
@@ -122,8 +127,10 @@ batten_status batch_engine_upload_all(const batch_engine *e, const batch_engine_
 /* The compiler's option that says where a kernel's state lies: in global memory, or in local. */
 const char *batch_engine_state_option(bool global);
 
-/* Most bytes of one launch: most, or what the device or the context allots at a time. */
+/* Most bytes of one launch: most, or what the device or the context allots at a time. Of searches, which a GPU gets
+ * more of: most is a CPU's. */
 size_t batch_engine_launch_bytes(const batch_engine *e, size_t most);
+size_t batch_engine_search_bytes(const batch_engine *e, size_t most);
 
 /* The engine for one more thread, number 1 .. HANDS_MOST - 1: of the same program, with a queue of its own; it ends with
  * the one it is of. Errors: DEVICE, MEMORY. */

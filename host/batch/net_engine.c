@@ -10,7 +10,7 @@
  * batch of any size runs in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20, BLOCK_ROUNDS = 8 };
 /* Of a GPU, as the search over offsets has them. */
-enum { GPU_BYTES = 160 << 20, GPU_ABREAST = 8, GPU_TOGETHER = 32 };
+enum { GPU_ABREAST = 8, GPU_TOGETHER = 32 };
 
 /* Bytes of a group's state. */
 static size_t state_bytes(const net_plan *plan, const batch_engine_recipe *recipe)
@@ -56,8 +56,7 @@ size_t net_engine_block(const batch_engine *engine, const net_plan *plan)
 	const size_t numbers = net_pack_sample_count(plan) + net_pack_kept_count(plan) +
 	                       NET_ARRAY_COUNT * net_plan_poles(plan);
 	const size_t group_bytes = numbers * lane_bytes + state_bytes(plan, &engine->recipe);
-	const size_t limit = batch_engine_launch_bytes(engine,
-	                                               device->is_cpu ? BLOCK_BYTES : GPU_BYTES);
+	const size_t limit = batch_engine_search_bytes(engine, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units * BLOCK_ROUNDS;
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;

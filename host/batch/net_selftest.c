@@ -13,7 +13,7 @@ enum {
 	POLES_MOST = NET_ORDER_MOST + SPANS - 1, /* along one direction */
 	SAMPLES_MOST = (POLES_MOST - 1) * NET_POINTS_MOST,
 	NET_MOST = POLES_MOST * POLES_MOST,
-	SEARCHES_MOST = 65
+	SEARCHES_MOST = BATCH_TEST_MOST
 };
 
 /* Searches on one net and what both sides found. */
@@ -171,8 +171,7 @@ batten_status net_selftest_compare(batch_engine *engine, const net_plan *plan,
 		              .options = plan->options,
 		              .fairness = plan->fairness,
 		              .leader = t->leader,
-		              /* Two full groups of lanes and one more: idle lanes are met too. */
-		              .count = 2 * (size_t)engine->recipe.lanes + 1,
+		              .count = batch_engine_test_count(engine->recipe.lanes),
 		              .items = t->items };
 	const size_t short_by = plan->u.order < plan->v.order ? plan->v.order - plan->u.order : 0;
 	test.options.first_step = 0.02;

@@ -16,7 +16,7 @@ struct search_engine {
  * batch of any size runs in bounded memory. */
 enum { BLOCK_BYTES = 64 << 20, BLOCK_ROUNDS = 8 };
 /* Of a GPU, by measurement (bench/README.md, what was tried). */
-enum { GPU_BYTES = 160 << 20, GPU_GROUPS_A_UNIT = 64, GPU_ABREAST = 8, GPU_TOGETHER = 32 };
+enum { GPU_GROUPS_A_UNIT = 64, GPU_ABREAST = 8, GPU_TOGETHER = 32 };
 
 static batch_engine_recipe recipe_of(const search_shape *shape)
 {
@@ -107,12 +107,9 @@ size_t search_engine_block(const search_engine *engine, const search_plan *plan)
 	const size_t group_bytes = SEARCH_ARRAY_COUNT * plan->node_count * lanes *
 	                               batch_engine_number_size(engine->shape.precision) +
 	                           state_bytes(plan, &engine->base.recipe);
-	const size_t limit = batch_engine_launch_bytes(&engine->base,
-	                                               device->is_cpu ? BLOCK_BYTES : GPU_BYTES);
+	const size_t limit = batch_engine_search_bytes(&engine->base, BLOCK_BYTES);
 	size_t groups = (size_t)device->compute_units *
 	                (device->is_cpu ? BLOCK_ROUNDS : GPU_GROUPS_A_UNIT);
-	groups = batch_engine_groups_most(&engine->base, groups,
-	                                  state_bytes(plan, &engine->base.recipe));
 	if (groups > limit / group_bytes)
 		groups = limit / group_bytes;
 	return (groups ? groups : 1) * lanes;

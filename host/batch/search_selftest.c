@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { STATIONS = 9, WATERLINES = 13, NODES = STATIONS * WATERLINES, MOST_SEARCHES = 65 };
+enum { STATIONS = 9, WATERLINES = 13, NODES = STATIONS * WATERLINES };
 
 /* A small hull with all that a real one has: uneven spacing, a rising keel, a raked stem, offsets on
  * their bounds, noise. No library function takes part, so every machine gets the same numbers. */
@@ -70,8 +70,8 @@ static batten_status run_both(const search_selftest_sides *sides, const search_p
                               const batten_search_problem *problems, size_t count, double *y,
                               batten_selftest *result)
 {
-	size_t which[MOST_SEARCHES];
-	batten_search_result found[MOST_SEARCHES] = { 0 };
+	size_t which[BATCH_TEST_MOST];
+	batten_search_result found[BATCH_TEST_MOST] = { 0 };
 	for (size_t p = 0; p < count; p++)
 		which[p] = p;
 	const double begun = batten_wall_seconds();
@@ -97,11 +97,10 @@ batten_status search_selftest_compare(batten_context *context, const search_self
 {
 	test_hull hull;
 	make_hull(&hull);
-	/* Two full groups of lanes, or one where these are many, and one more, so that idle lanes are met too; the
-	 * block search gives hats to the first of the weights. */
-	const size_t count = 2 * lanes + 1 < MOST_SEARCHES ? 2 * lanes + 1 : MOST_SEARCHES;
-	batten_search_problem problems[MOST_SEARCHES];
-	double penalties[MOST_SEARCHES];
+	const size_t count = batch_engine_test_count(lanes);
+	/* The block search gives hats to the first of the weights. */
+	batten_search_problem problems[BATCH_TEST_MOST];
+	double penalties[BATCH_TEST_MOST];
 	for (size_t p = 0; p < count; p++) {
 		penalties[p] = ldexp(1.0, -(int)p % 8 - 6);
 		problems[p] = (batten_search_problem){ .nodes = hull.nodes,

@@ -230,6 +230,7 @@ static void test_device(void **state)
 	} shapes[] = { { BATTEN_F64, 8, 1, BATTEN_FAIRNESS_BENDING },
 		           { BATTEN_F32, 2, 1, BATTEN_FAIRNESS_BENDING },
 		           { BATTEN_F64, 1, 64, BATTEN_FAIRNESS_BENDING },
+		           { BATTEN_F32, 64, 64, BATTEN_FAIRNESS_BENDING },
 		           { BATTEN_F64, 4, 1, BATTEN_FAIRNESS_MEAN } };
 	net_case c = net_case_wigley(0.05);
 	size_t *leader = calloc(c.poles, sizeof *leader);
