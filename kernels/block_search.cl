@@ -22,8 +22,8 @@
 #include "shared/block_lanes.h"
 
 /* stencils: STENCIL_SIZE a line, then a node of a line, then BLOCK_HAT_SIZE a node of a line about its
- * hats, if there are any. inputs, settings, outcomes: as block_memory has them. Group g, or work-item g where
- * searches stand abreast, works searches g * share up to count; turns[g]: how many iterations its lanes went
+ * hats, if there are any. inputs, settings, outcomes: as block_memory has them. Group g, or lane g of all
+ * where searches stand abreast, works searches g * share up to count; turns[g]: how many iterations its lanes went
  * through. room: BLOCK_STATE_NUMBERS a search, with `slots` lines of probes (local size + 2; with hats or rounds
  * lines + 2). */
 kernel void block_search(int lines, int length, int hats, int rounds, int slots,

@@ -26,7 +26,7 @@
 #include "shared/block_lanes.h"
 
 /* shape: NET_BLOCK_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE a sample along u, then along v. inputs, settings, outcomes: as block_memory has them. Group g works searches
- * g * share up to count, and so does work-item g where searches stand abreast; turns[g]: how many iterations its lanes went
+ * g * share up to count, and so does lane g of all where searches stand abreast; turns[g]: how many iterations its lanes went
  * through. room: NET_BLOCK_STATE_NUMBERS a search. */
 kernel void net_block(global const int *shape, global const int *first_u, global const int *first_v,
                       global const int *follower, global const scalar *tables,

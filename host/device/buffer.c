@@ -28,7 +28,7 @@ static batten_status create(device_session *session, cl_mem_flags flags, size_t 
 		return BATTEN_MEMORY;
 	*buffer = (device_buffer){ .session = session,
 		                       .size = size,
-		                       .room = memory && (flags & CL_MEM_USE_HOST_PTR) ? 0 : size };
+		                       .room = flags & CL_MEM_USE_HOST_PTR ? 0 : size };
 	batten_status status = BATTEN_OK;
 	cl_int code = CL_SUCCESS;
 	buffer->memory = DEVICE_CREATE(&session->system->opencl, &code, CreateBuffer,

@@ -35,8 +35,7 @@ struct device_session {
 	cl_context environment;
 	bool borrowed; /* the environment is another session's */
 	cl_command_queue queue;
-	device_buffer *
-		spares[SPARES_MOST]; /* let go, the newest last, and kept to be taken again; not on a CPU */
+	device_buffer *spares[SPARES_MOST]; /* let go, the newest last; not on a CPU */
 	size_t spare_count;
 	char error[512];
 };

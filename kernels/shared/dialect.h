@@ -136,7 +136,7 @@ typedef real stored;
 #endif
 
 /* Where a search's own numbers are, so many, in the global memory of all of them, and in that of STATE.
- * QUEUE_NUMBER: of those who work together, or of one who works alone. */
+ * QUEUE_NUMBER: of those who work together: a group, or abreast a lane. */
 #if defined(BATTEN_ABREAST)
 #define ABREAST_LANE (get_local_id(0) % BATTEN_ABREAST)
 #define QUEUE_NUMBER ((int)(get_group_id(0) * BATTEN_ABREAST + ABREAST_LANE))
