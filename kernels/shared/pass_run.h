@@ -73,7 +73,7 @@ SHARED_FUNCTION void pass_work_operation(const pass_program *p, int number, GLOB
 			pass_work_row(p, row, state);
 			PASS_BESIDE(beside, PASS_ROW_TIME);
 		}
-	} else if (kind == PASS_TILES || (kind == PASS_TILES_IN_ORDER && WORK_ITEM == 0)) {
+	} else if (kind == PASS_TILES || (WORK_ITEM == 0 && kind == PASS_TILES_IN_ORDER)) {
 		const int items = kind == PASS_TILES ? WORK_ITEMS : 1;
 		ROLLED
 		for (int row = first + (items > 1 ? WORK_ITEM * PASS_TILE : 0); row < end;

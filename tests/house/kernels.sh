@@ -36,8 +36,8 @@ for file in "$embedded"/*.cl; do
 		abreast='1,1,global,-DSTATE_IS_GLOBAL,-DBATTEN_ABREAST=4 0,1,global,-DSTATE_IS_GLOBAL,-DBATTEN_ABREAST=8,-DBATTEN_ALONE'
 		;;
 	esac
-	for options in 0,1,local 0,2,global 0,16,local,-DBATTEN_PREFETCH 1,1,global 1,2,local \
-		1,16,global,-DBATTEN_PREFETCH $abreast; do
+	for options in 0,1,local 0,2,global 0,16,local,-DBATTEN_PREFETCH,-DBATTEN_ALONE 1,1,global 1,2,local \
+		1,16,global,-DBATTEN_PREFETCH,-DBATTEN_ALONE $abreast; do
 		# shellcheck disable=SC2086
 		set -- $(echo "$options" | tr , ' ')
 		options="-DBATTEN_DOUBLE=$1 -DBATTEN_LANES=$2 -DSTATE=$3"
