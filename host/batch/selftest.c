@@ -8,6 +8,8 @@
 #include "batch/surface_engine.h"
 #include "batch/variants_engine.h"
 
+#include <string.h>
+
 /* The smallest grid: of it only the numbers that choose a shape count. */
 static batten_status plan_searches(batten_context *context, batten_precision precision,
                                    batten_search_algorithm algorithm, search_plan **out)
@@ -124,10 +126,20 @@ static batten_status test_stretches(batten_context *context, size_t index,
 	return test_pass(context, index, device, precision, true, result);
 }
 
-/* These are of one precision only. */
-static batten_status test_afloat(batten_context *context, size_t index, const batten_device *device,
-                                 batten_selftest *result)
+static batten_status test_variants(batten_context *context, size_t index,
+                                   const batten_device *device, batten_precision precision,
+                                   batten_selftest *result)
 {
+	(void)precision;
+	const variants_plan plan = { .context = context };
+	batch_engine *engine = NULL;
+	return variants_engine_open(&plan, index, device, &engine, result);
+}
+
+static batten_status test_afloat(batten_context *context, size_t index, const batten_device *device,
+                                 batten_precision precision, batten_selftest *result)
+{
+	(void)precision;
 	const size_t net = AFLOAT_ORDER_MOST;
 	const afloat_plan plan = {
 		.context = context,
@@ -137,15 +149,31 @@ static batten_status test_afloat(batten_context *context, size_t index, const ba
 	return afloat_engine_open(&plan, index, device, &engine, result);
 }
 
-static batten_status test_variants(batten_context *context, size_t index,
-                                   const batten_device *device, batten_selftest *result)
+static const struct {
+	const char *name;
+	batten_status (*test)(batten_context *, size_t, const batten_device *, batten_precision,
+	                      batten_selftest *);
+	bool f64_alone;
+} kernels[] = {
+	{ "multilevel", test_search, false },
+	{ "textbook", test_textbook, false },
+	{ "block_search", test_block, false },
+	{ "surface_grid", test_surfaces, false },
+	{ "net_search", test_nets, false },
+	{ "net_block", test_net_block, false },
+	{ "fairing_pass", test_passes, false },
+	{ "fairing_stretches", test_stretches, false },
+	{ "hull_variants", test_variants, true },
+	{ "surface_hydrostatics", test_afloat, true },
+};
+enum { KERNELS = sizeof kernels / sizeof kernels[0] };
+
+const char *batten_device_kernel_name(size_t number)
 {
-	const variants_plan plan = { .context = context };
-	batch_engine *engine = NULL;
-	return variants_engine_open(&plan, index, device, &engine, result);
+	return number < KERNELS ? kernels[number].name : NULL;
 }
 
-batten_status batten_device_selftest(batten_context *context, size_t index,
+batten_status batten_device_selftest(batten_context *context, size_t index, const char *kernel,
                                      batten_selftest *results, size_t capacity, size_t *count)
 {
 	batten_device device;
@@ -153,23 +181,16 @@ batten_status batten_device_selftest(batten_context *context, size_t index,
 	if (status != BATTEN_OK)
 		return status;
 	static const batten_precision precisions[] = { BATTEN_F64, BATTEN_F32 };
-	static batten_status (*const tests[])(
-		batten_context *, size_t, const batten_device *, batten_precision,
-		batten_selftest *) = { test_search, test_textbook,  test_block,  test_surfaces,
-		                       test_nets,   test_net_block, test_passes, test_stretches };
-	static batten_status (*const double_tests[])(batten_context *, size_t, const batten_device *,
-	                                             batten_selftest *) = { test_variants,
-		                                                                test_afloat };
-	enum { PRECISIONS = 2, BOTH = 8 * PRECISIONS, TESTS = BOTH + 2 };
-	*count = TESTS;
-	for (size_t t = 0; t < TESTS && t < capacity; t++) {
-		const batten_status opened = t < BOTH ? tests[t / PRECISIONS](context, index, &device,
-		                                                              precisions[t % PRECISIONS],
-		                                                              &results[t])
-		                                      : double_tests[t - BOTH](context, index, &device,
-		                                                               &results[t]);
-		if (opened == BATTEN_MEMORY)
-			return opened;
+	*count = 0;
+	for (size_t k = 0; k < KERNELS; k++) {
+		if (kernel && strcmp(kernel, kernels[k].name) != 0)
+			continue;
+		for (size_t p = 0; p < (kernels[k].f64_alone ? 1 : 2); p++, ++*count)
+			if (*count < capacity && kernels[k].test(context, index, &device, precisions[p],
+			                                         &results[*count]) == BATTEN_MEMORY)
+				return BATTEN_MEMORY;
 	}
+	if (*count == 0)
+		return batten_fail(context, BATTEN_USAGE, "kernel: '%s' is none of batten's", kernel);
 	return BATTEN_OK;
 }

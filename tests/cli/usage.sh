@@ -74,6 +74,7 @@ done
 refuses "--device.*'gpu'" fair --device gpu "$hull"
 refuses "--device.*'-1'" fair --device -1 "$hull"
 refuses 'reference' selftest --device reference
+refuses 'block_search' selftest --kernel block
 refuses "--precision.*'f16'" fair --precision f16 "$hull"
 refuses "--iterations.*'1.5'" fair --iterations 1.5 "$hull"
 refuses '--iterations' fair --iterations 0 "$hull"

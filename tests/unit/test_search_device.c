@@ -1,5 +1,6 @@
 /* The search on OpenCL: its self-test, its default shapes against the C path, two devices on one
  * queue, and what happens when a device fails. Runs with two PoCL devices. */
+#include "support/cases.h"
 #include "support/search_equal.h"
 
 #include "device/device.h"
@@ -21,10 +22,10 @@ static void test_selftest_is_equal(void **state)
 	const size_t devices = batten_device_count(context, NULL);
 	assert_int_equal(devices, 2);
 	size_t built = 0;
-	for (size_t d = 0; d < devices; d++) {
+	for (size_t d = 0; d < CASES(devices, 1); d++) {
 		batten_selftest tests[32];
 		size_t count = 0;
-		assert_int_equal(batten_device_selftest(context, d, tests, 32, &count), BATTEN_OK);
+		assert_int_equal(batten_device_selftest(context, d, NULL, tests, 32, &count), BATTEN_OK);
 		for (size_t t = 0; t < count; t++) {
 			assert_int_equal(tests[t].result, BATTEN_SELFTEST_EQUAL);
 			/* The smallest are the passes: 17 hulls of 22 values in f64. */
@@ -34,10 +35,19 @@ static void test_selftest_is_equal(void **state)
 		}
 	}
 	/* f64 and f32 of eight kernels on each device, f64 of those of variants and of surfaces afloat. */
-	assert_int_equal(built, 36);
+	assert_int_equal(built, CASES(36, 18));
 	batten_selftest test;
 	size_t count = 0;
-	assert_int_equal(batten_device_selftest(context, 99, &test, 1, &count), BATTEN_DEVICE);
+	assert_int_equal(batten_device_selftest(context, 99, NULL, &test, 1, &count), BATTEN_DEVICE);
+	/* Each alone, by its name. */
+	for (size_t k = 0; batten_device_kernel_name(k); k++) {
+		const char *name = batten_device_kernel_name(k);
+		assert_int_equal(batten_device_selftest(context, 0, name, &test, 1, &count), BATTEN_OK);
+		assert_string_equal(test.kernel, name);
+		assert_true(count == 1 || count == 2);
+	}
+	assert_int_equal(batten_device_selftest(context, 0, "block", &test, 1, &count), BATTEN_USAGE);
+	assert_non_null(strstr(batten_context_error(context), "block"));
 	batten_context_destroy(context);
 }
 

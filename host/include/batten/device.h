@@ -50,11 +50,14 @@ typedef struct batten_selftest {
 	char message[256]; /* one line when it failed */
 } batten_selftest;
 
-/* Runs every kernel on a small known problem against the C path. results is the caller's, capacity
- * entries long; *count gets the number of tests. Errors: DEVICE, MEMORY. */
+/* The name of a kernel, numbered from 0; NULL beyond the last. */
+BATTEN_API const char *batten_device_kernel_name(size_t number);
+
+/* Runs a kernel, or with NULL every one, on a small known problem against the C path. results is the caller's,
+ * capacity entries long; *count gets the number of tests. Errors: DEVICE, MEMORY, USAGE (no such kernel). */
 BATTEN_API batten_status batten_device_selftest(batten_context *context, size_t index,
-                                                batten_selftest *results, size_t capacity,
-                                                size_t *count);
+                                                const char *kernel, batten_selftest *results,
+                                                size_t capacity, size_t *count);
 
 #ifdef __cplusplus
 }
