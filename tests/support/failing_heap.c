@@ -1,5 +1,7 @@
 #include "support/failing_heap.h"
 
+#include "support/cases.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -58,7 +60,8 @@ size_t failing_heap_each(failing_heap *heap, batten_context *context, failing_he
 {
 	for (heap->fail_at = 1; call_short(heap, context, call, user) != BATTEN_OK; heap->fail_at++) {
 		heap->fail_on = true;
-		assert_int_equal(call_short(heap, context, call, user), BATTEN_MEMORY);
+		if (heap->fail_at % CASES(1, 2) == 0)
+			assert_int_equal(call_short(heap, context, call, user), BATTEN_MEMORY);
 		heap->fail_on = false;
 	}
 	const size_t failed = heap->fail_at - 1;

@@ -19,7 +19,7 @@ typedef struct failing_heap {
 batten_context *failing_heap_context(failing_heap *heap);
 
 /* Calls until it succeeds, first with the first allocation failing, alone and then with all after it,
- * next with the second, and so on. Each failure must be MEMORY, say so, and leave nothing alive; the
+ * next with the second, and so on (sanitizers: every other with all after it). Each failure must be MEMORY, say so, and leave nothing alive; the
  * success must be the call that no allocation failed. Returns how many allocations failed. */
 typedef batten_status (*failing_heap_call)(batten_context *context, void *user);
 size_t failing_heap_each(failing_heap *heap, batten_context *context, failing_heap_call call,

@@ -365,11 +365,13 @@ static void runge(void **state)
 		double worst = 0;
 		for (int i = 0; i <= 2000; i++) {
 			double s = -1 + i / 1000.0;
-			long double oracle[3];
-			assert_true(oracle_spline(count, x, y, ORACLE_NATURAL, s, oracle));
 			batten_curve_point point = at(curve, s);
-			for (size_t d = 0; d < 3 && i % 50 == 7; d++)
-				assert_close(point.derivative[d][1], (double)oracle[d], 1e-11);
+			if (i % 50 == 7) {
+				long double oracle[3];
+				assert_true(oracle_spline(count, x, y, ORACLE_NATURAL, s, oracle));
+				for (size_t d = 0; d < 3; d++)
+					assert_close(point.derivative[d][1], (double)oracle[d], 1e-11);
+			}
 			worst = fmax(worst, fabs(point.derivative[0][1] - 1 / (1 + 25 * s * s)));
 		}
 		assert_true(worst < 0.025 && worst < last_spline);

@@ -1,5 +1,6 @@
 /* The variation of curvature as the fairness of a search over offsets: its objective against the measure of
  * the hull, its ends against Newton's method, C against the device. What it sums: test_grid_variation.c. */
+#include "support/cases.h"
 #include "support/search_case.h"
 
 #include <math.h>
@@ -92,7 +93,7 @@ static void test_device(void **state)
 	double *known = search_case_room(&c);
 	double *found = search_case_room(&c);
 	for (int run = 0; run < 3; run++) {
-		batten_search_options options = options_of(run == 2 ? 3 : 12);
+		batten_search_options options = options_of(run == 2 ? CASES(3, 1) : CASES(12, 3));
 		options.precision = run == 1 ? BATTEN_F32 : BATTEN_F64;
 		options.algorithm = run == 2 ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_AUTO;
 		const batten_search_result a = search_case_run(&c, &problem, &options, known);

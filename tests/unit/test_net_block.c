@@ -1,6 +1,7 @@
 /* The block search over nets: ends at the minima that the multilevel search ends at, with bounds that hold poles and
  * without, poles that go with others, both fairnesses it knows; how searches end; on OpenCL, in lanes and in
  * work-groups, the bits of the C path, and whatever call fails. */
+#include "support/cases.h"
 #include "support/kernel_compile.h"
 #include "support/net_case.h"
 
@@ -76,7 +77,7 @@ static void check_ends(const net_case *c, batten_net_options options, double w2)
 static void test_ends(void **state)
 {
 	(void)state;
-	for (int f = 0; f < 2; f++) {
+	for (int f = 0; f < CASES(2, 1); f++) {
 		const batten_net_options options = options_of(BATTEN_ALGORITHM_BLOCK, (batten_fairness)f);
 		net_case c = net_case_wigley(10.0);
 		check_ends(&c, options, 10.0);

@@ -1,5 +1,6 @@
 /* Certificates of searches over control nets: against the oracle's objective and minimum, for every
  * fairness, with poles that move together, and the polish. */
+#include "support/cases.h"
 #include "support/failing_heap.h"
 #include "support/net_case.h"
 
@@ -107,7 +108,7 @@ static void test_estimate_is_the_gap(void **state)
 	net_case c = net_case_wigley(0.1);
 	double *y = room_for(&c);
 	double *best = room_for(&c);
-	for (int run = 0; run < 6; run++) {
+	for (int run = 0; run < CASES(6, 2); run++) {
 		const int f = run / 2;
 		const double w2 = f == 2 ? 1e4 : 100.0;
 		const batten_net_problem problem = net_case_problem(&c, 1.0, w2);
@@ -140,7 +141,7 @@ static void test_polish(void **state)
 	net_case c = net_case_wigley(0.1);
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 1e4);
 	double *y = room_for(&c);
-	for (int run = 0; run < 8; run++) {
+	for (int run = 0; run < CASES(8, 2); run++) {
 		if (run == 3 || run == 5)
 			continue; /* f32 once with each order of derivatives */
 		batten_net_options options = options_of((batten_fairness)(run / 2), 60);
@@ -173,7 +174,7 @@ static void test_polish_from_no_estimate(void **state)
 	net_case c = net_case_wigley(0.1);
 	const batten_net_problem problem = net_case_problem(&c, 1.0, 10.0);
 	double *y = room_for(&c);
-	for (int f = BATTEN_FAIRNESS_BENDING; f <= BATTEN_FAIRNESS_MEAN; f++) {
+	for (int f = 0; f < CASES(2, 1); f++) { /* bending, mean */
 		const batten_net_options options = options_of((batten_fairness)f, 400);
 		batten_certificate end;
 		const double known = search(&c, &problem, &options, y).objective_end;

@@ -2,6 +2,7 @@
 #include "picture/curvature_chart.h"
 #include "picture/paper.h"
 
+#include "support/cases.h"
 #include "unit/picture_fixture.h"
 
 /* ------------------------------------------------------------------------------------------------
@@ -63,7 +64,7 @@ static void colours_follow_the_scale(void **state)
 	picture_colour_map_fill(&map);
 	double zero[3];
 	picture_colour_map_look_up(&map, 0, zero);
-	for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+	for (size_t k = 0; k < CASES(sizeof cases / sizeof cases[0], 2); k++) {
 		batten_hull *hull = make_wall(f, cases[k].bend);
 		options.scale_per_m = cases[k].scale;
 		picture p = draw(f, hull, &options);
