@@ -155,16 +155,11 @@ static const struct {
 	                      batten_selftest *);
 	bool f64_alone;
 } kernels[] = {
-	{ "multilevel", test_search, false },
-	{ "textbook", test_textbook, false },
-	{ "block_search", test_block, false },
-	{ "surface_grid", test_surfaces, false },
-	{ "net_search", test_nets, false },
-	{ "net_block", test_net_block, false },
-	{ "fairing_pass", test_passes, false },
-	{ "fairing_stretches", test_stretches, false },
-	{ "hull_variants", test_variants, true },
-	{ "surface_hydrostatics", test_afloat, true },
+	{ "multilevel", test_search, false },     { "textbook", test_textbook, false },
+	{ "block_search", test_block, false },    { "surface_grid", test_surfaces, false },
+	{ "net_search", test_nets, false },       { "net_block", test_net_block, false },
+	{ "fairing_pass", test_passes, false },   { "fairing_stretches", test_stretches, false },
+	{ "hull_variants", test_variants, true }, { "surface_hydrostatics", test_afloat, true },
 };
 enum { KERNELS = sizeof kernels / sizeof kernels[0] };
 

@@ -18,7 +18,7 @@ static const cli_command selftest_command = {
 	.usage = "[--device INDEX] [--kernel NAME] [OPTION ...]",
 	.summary = "runs every kernel on a small known problem against the plain C path, bit for bit",
 	.example = "  batten selftest\n"
-	           "  batten selftest --kernel block_search\n",
+			   "  batten selftest --kernel block_search\n",
 	.notes =
 		"equal: the same bits as the C path; different: other last bits, used only when asked for by\n"
 		"its index; failed: not used; absent: the device has no such precision.\n",
