@@ -281,7 +281,9 @@ SHARED_FUNCTION mask block_descend(const block_state *s, int turn, real longest,
 		p->tries += CHOOSE(trying, one, zero);
 		found = CHOOSE(good, trial.objective, found);
 		gain = gain | good;
-		trying = trying & (trial.objective >= p->objective - least_gain) &
+		/* A way that goes on promises no gain worth it, by its slope: rounding is all there is to be found. */
+		const mask hopes = (part * shorter) * p->promise > least_gain;
+		trying = trying & hopes & (trial.objective >= p->objective - least_gain) &
 		         (trial.longest > middle * limits.last_step) & (p->fresh == zero);
 		if (!ANY_BESIDE(s, trying))
 			break;
