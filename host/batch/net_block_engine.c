@@ -57,10 +57,11 @@ typedef struct block {
 	net_block_shape shape;
 	size_t count;
 	batch_engine_queues queues;
-	size_t number, input_bytes; /* of a number; of a search */
+	size_t number, input_bytes, state_bytes; /* of a number; of a search; of all groups */
 	bool alone;
 	int32_t numbers[NET_BLOCK_SHAPE_SIZE];
 	void *tables, *inputs, *settings, *outcomes, *ends;
+	void *state; /* kept from launch to launch; NULL: the device's own */
 	int32_t *followers, *turns;
 	net_room *rooms;
 	device_buffer *shape_on, *first_u_on, *first_v_on, *followers_on, *tables_on, *inputs_on,
@@ -80,7 +81,18 @@ static void block_release(batch_engine *engine, block *b)
 		batten_release(engine->context, memory[i]);
 }
 
-static batten_status block_allocate(const batch_engine *engine, block *b)
+/* Memory for the state that the engine keeps, so that its pages are there at the next launch; where the device works in
+ * the host's. Lanes begin where vectors may. */
+static void *state_memory(batch_engine *engine, size_t bytes)
+{
+	enum { APART = 128 };
+	if (!batch_engine_device(engine)->is_cpu || engine->copies || bytes > SIZE_MAX - APART)
+		return NULL;
+	char *memory = batch_engine_memory(engine, bytes + APART, 1);
+	return memory ? memory + (APART - (uintptr_t)memory % APART) : NULL;
+}
+
+static batten_status block_allocate(batch_engine *engine, block *b)
 {
 	batten_context *context = engine->context;
 	const size_t poles = net_plan_poles(b->plan);
@@ -93,6 +105,8 @@ static batten_status block_allocate(const batch_engine *engine, block *b)
 	                     b->number;
 	b->queues = batch_engine_queues_of(&engine->recipe, b->count,
 	                                   batch_engine_groups_most(engine, units_of(engine), state));
+	b->state_bytes = b->queues.groups * state;
+	b->state = state_memory(engine, b->state_bytes);
 	b->input_bytes = BLOCK_INPUT_COUNT * poles * b->number;
 	b->tables = batten_allocate(context, net_block_table_count(&b->shape), b->number);
 	b->inputs = batten_allocate(context, b->count, b->input_bytes);
@@ -122,8 +136,6 @@ static void block_fill(const size_t *which, block *b)
 
 static batten_status block_upload(const batch_engine *engine, block *b)
 {
-	const size_t state = net_block_state_numbers(&b->shape, b->alone) * engine->recipe.lanes *
-	                     b->number;
 	/* An OpenCL buffer cannot be empty: the list of followers has room for one more. */
 	const batch_engine_upload uploads[] = {
 		{ &b->shape_on, sizeof b->numbers, b->numbers },
@@ -136,9 +148,13 @@ static batten_status block_upload(const batch_engine *engine, block *b)
 		{ &b->outcomes_on, b->count * BLOCK_OUTCOME_COUNT * b->number, NULL },
 		{ &b->ends_on, b->count * net_plan_poles(b->plan) * b->number, NULL },
 		{ &b->turns_on, b->queues.count * sizeof *b->turns, NULL },
-		{ &b->state_on, b->queues.groups * state, NULL },
+		{ &b->state_on, b->state ? 0 : b->state_bytes, NULL },
 	};
-	return batch_engine_upload_all(engine, uploads, sizeof uploads / sizeof uploads[0]);
+	batten_status status = batch_engine_upload_all(engine, uploads,
+	                                               sizeof uploads / sizeof uploads[0]);
+	if (status == BATTEN_OK && b->state)
+		status = device_buffer_wrap(engine->session, b->state_bytes, b->state, &b->state_on);
+	return status;
 }
 
 static batten_status block_launch(const batch_engine *engine, block *b)
