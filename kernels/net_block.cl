@@ -21,6 +21,12 @@
 #undef STATE_IS_GLOBAL
 #define STATE_IS_GLOBAL
 #include "shared/dialect.h"
+/* What is called from several places PoCL would call, and what those places know beforehand, how many rows or pairs are
+ * worked together, it would look up. */
+#if defined(BATTEN_ALONE)
+#undef SHARED_FUNCTION
+#define SHARED_FUNCTION static inline __attribute__((always_inline))
+#endif
 #include "shared/net_block_tables.h"
 /* The course last: it calls these. */
 #include "shared/block_lanes.h"
@@ -57,8 +63,7 @@ kernel void net_block(global const int *shape, global const int *first_u, global
 	s.samples = s.bottom + s.nodes;
 	s.work = s.samples + NET_BLOCK_SAMPLE * (s.count_u * s.count_v);
 	s.vote = vote;
-	s.sums = s.work +
-	         s.slots * NET_BLOCK_LINE_NUMBERS(s.lines, s.count_u, NET_ORDER_U, NET_POINTS_U);
+	s.sums = s.work + s.slots * NET_BLOCK_LINE_NUMBERS(s.lines, NET_ORDER_U, NET_POINTS_U);
 	s.terms = s.sums + BLOCK_SUM_COUNT * s.lines;
 	block_memory m;
 	m.inputs = inputs;

@@ -28,7 +28,7 @@ INLINED void work_search(const reference_net_block *shared, const scalar *tables
 	scalar *samples = bottom + places;
 	scalar *work = samples + NET_BLOCK_SAMPLE * (size_t)count_u * (size_t)count_v;
 	scalar *sums = work + (size_t)shape[NET_BLOCK_SLOTS] *
-	                          (size_t)NET_BLOCK_LINE_NUMBERS(shape[NET_BLOCK_COLUMNS], count_u,
+	                          (size_t)NET_BLOCK_LINE_NUMBERS(shape[NET_BLOCK_COLUMNS],
 	                                                         shared->order_u, shared->points_u);
 	scalar *terms = sums + BLOCK_SUM_COUNT * shape[NET_BLOCK_COLUMNS];
 	const block_state s = {

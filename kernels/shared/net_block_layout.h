@@ -66,10 +66,10 @@ enum {
 
 enum { NET_POINTS_MOST = 16 }; /* samples a span and direction */
 
-/* Numbers of a line that is worked: columns taken together along v; probes; what the columns of a span change;
+/* Numbers of a line that is worked: columns taken together along v; probes of a span and what its columns change;
  * slopes of the columns; pairs of columns. */
-#define NET_BLOCK_LINE_NUMBERS(columns, count_u, order_u, points_u)                                \
-	(3 * (columns) + NET_BLOCK_PROBED * (count_u) +                                                \
+#define NET_BLOCK_LINE_NUMBERS(columns, order_u, points_u)                                         \
+	(3 * (columns) + NET_BLOCK_PROBED * (points_u) +                                               \
 	 NET_BLOCK_COLUMN_SIZE * (points_u) * (order_u) + 3 * (columns) + 9 * (columns) * (order_u))
 
 /* Numbers of a search's state in one lane: of poles, samples, lines that are worked; sums, BLOCK_SUM_COUNT a column and
@@ -77,7 +77,7 @@ enum { NET_POINTS_MOST = 16 }; /* samples a span and direction */
 #define NET_BLOCK_STATE_NUMBERS(columns, rows, count_u, count_v, band, slots, order_u, points_u)   \
 	((BLOCK_STATE_COUNT + (band) + 1) * (columns) * (rows) +                                       \
 	 NET_BLOCK_SAMPLE * (count_u) * (count_v) +                                                    \
-	 (slots)*NET_BLOCK_LINE_NUMBERS(columns, count_u, order_u, points_u) +                         \
-	 BLOCK_SUM_COUNT * (columns) + (count_v) + BLOCK_LANE_NUMBERS)
+	 (slots)*NET_BLOCK_LINE_NUMBERS(columns, order_u, points_u) + BLOCK_SUM_COUNT * (columns) +    \
+	 (count_v) + BLOCK_LANE_NUMBERS)
 
 #endif

@@ -45,7 +45,7 @@ SHARED_FUNCTION STATE stored *block_array(const block_state *s, int array)
 /* What is worked of a line of samples. */
 typedef struct net_line {
 	STATE stored *columns; /* [lines][3]: taken together along v, with two derivatives */
-	STATE stored *probes;  /* [count_u][NET_BLOCK_PROBED] */
+	STATE stored *probes;  /* [NET_POINTS_U][NET_BLOCK_PROBED] */
 	STATE stored *span;    /* [NET_POINTS_U][NET_ORDER_U][NET_BLOCK_COLUMN_SIZE] */
 	STATE stored *slopes;  /* [lines][3]: along columns, their first and second derivatives by v */
 	STATE stored *pairs;   /* [lines][NET_ORDER_U][9] */
@@ -54,10 +54,9 @@ typedef struct net_line {
 SHARED_FUNCTION net_line net_line_of(const block_state *s, int slot)
 {
 	net_line line;
-	line.columns = s->work +
-	               slot * NET_BLOCK_LINE_NUMBERS(s->lines, s->count_u, NET_ORDER_U, NET_POINTS_U);
+	line.columns = s->work + slot * NET_BLOCK_LINE_NUMBERS(s->lines, NET_ORDER_U, NET_POINTS_U);
 	line.probes = line.columns + 3 * s->lines;
-	line.span = line.probes + NET_BLOCK_PROBED * s->count_u;
+	line.span = line.probes + NET_BLOCK_PROBED * NET_POINTS_U;
 	line.slopes = line.span + NET_BLOCK_COLUMN_SIZE * (NET_POINTS_U * NET_ORDER_U);
 	line.pairs = line.slopes + 3 * s->lines;
 	return line;
@@ -134,7 +133,7 @@ SHARED_FUNCTION void net_place_sample(STATE stored *sample, net_way x, net_way z
 
 /* What the target decides of it, and where the search begins: whether there is a normal. */
 SHARED_FUNCTION void net_weigh_sample(STATE stored *sample, net_way target, net_way start,
-                                      mask fresh, real fair, real close)
+                                      mask fresh, real root, real close)
 {
 	const real zero = SPREAD(LITERAL(0.0));
 	const real angle = SPREAD(NET_BLOCK_ANGLE * NET_BLOCK_ANGLE);
@@ -146,8 +145,8 @@ SHARED_FUNCTION void net_weigh_sample(STATE stored *sample, net_way target, net_
 	const net_metric m = net_metric_of(sample, target.u + start.u, target.v + start.v);
 	const mask regular = m.square > angle * (m.uu * m.vv);
 	const real flat = CHOOSE(m.n_y < zero, -m.n_y, m.n_y);
-	const real root = CHOOSE(regular, SQUARE_ROOT(fair + fair), zero);
-	AT(sample[NET_BLOCK_ROOT]) = CHOOSE(fresh, root, AT(sample[NET_BLOCK_ROOT]));
+	AT(sample[NET_BLOCK_ROOT]) = CHOOSE(fresh, CHOOSE(regular, root, zero),
+	                                    AT(sample[NET_BLOCK_ROOT]));
 	AT(sample[NET_BLOCK_CLOSE]) = close * flat;
 }
 
@@ -156,6 +155,7 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
                                   real close)
 {
 	const int lines = begun ? s->count_v : 0;
+	const real root = SQUARE_ROOT(fair + fair);
 	ROLLED
 	for (int line = WORK_ITEM; line < lines; line += WORK_ITEMS) {
 		/* Four nets in the place of one: there are no pairs yet. */
@@ -173,7 +173,7 @@ SHARED_FUNCTION void block_arrive(const block_state *s, int begun, mask fresh, r
 			const scalar area = s->table_u[(i + 1) * NET_TABLE_SIZE(NET_ORDER_U) - 1] * along_v;
 			net_place_sample(sample, net_way_at(s, x, i), net_way_at(s, z, i));
 			net_weigh_sample(sample, net_way_at(s, target, i), net_way_at(s, start, i), fresh,
-			                 fair * SPREAD(area), close * SPREAD(area));
+			                 root * SPREAD(SQUARE_ROOT(area)), close * SPREAD(area));
 		}
 	}
 	WAIT;
@@ -198,24 +198,17 @@ SHARED_FUNCTION real net_line_objective(const block_state *s, const STATE stored
 	return sum;
 }
 
-/* Probes a line; what y_u and y_v change counts `part`. Returns the line's objective. */
-SHARED_FUNCTION real net_probe_line(const block_state *s, const net_line *at, int line, real part)
+/* Probes a sample; what y_u and y_v change counts `part`. Returns its part of the objective. */
+SHARED_FUNCTION real net_probe_sample(const block_state *s, int line, int i, const net_ready *ready,
+                                      real part, STATE stored *to)
 {
-	real sum = SPREAD(LITERAL(0.0));
-	net_collapse_line(s, block_array(s, BLOCK_INPUT_START), line, at->columns);
-	ROLLED
-	for (int i = 0; i < s->count_u; i++) {
-		const STATE stored *sample = net_sample(s, line, i);
-		const real close = AT(sample[NET_BLOCK_CLOSE]);
-		const net_forms forms = net_forms_of(sample, net_way_at(s, at->columns, i),
-		                                     NET_BLOCK_BENDS);
-		STATE stored *to = at->probes + i * NET_BLOCK_PROBED;
-		net_probe(sample, &forms, part, to);
-		AT(to[NET_BLOCK_CLOSE_SLOPE]) = (close + close) * forms.at;
-		AT(to[NET_BLOCK_CLOSE_CURVATURE]) = close + close;
-		sum += net_forms_objective(sample, &forms);
-	}
-	return sum;
+	const STATE stored *sample = net_sample(s, line, i);
+	const real close = AT(sample[NET_BLOCK_CLOSE]);
+	const real at = ready->forms.at;
+	const real energy = net_probe(sample, ready, part, to);
+	AT(to[NET_BLOCK_CLOSE_SLOPE]) = (close + close) * at;
+	AT(to[NET_BLOCK_CLOSE_CURVATURE]) = close + close;
+	return FUSED(close * at, at, energy);
 }
 
 #endif

@@ -179,17 +179,36 @@ SHARED_FUNCTION void net_put_bends(const net_forms *s, STATE stored *to, int n, 
 		AT(to[NET_BLOCK_FIRST + n]) = b.first;
 }
 
+/* A sample that is about to be probed, with the roots that takes: they are worked for several samples before the first
+ * is probed, since a processor waits for a root long enough to begin others. */
+typedef struct net_ready {
+	net_forms forms;
+	real fourth;               /* of 1 / W */
+	real inverse_u, inverse_v; /* how far y_u and y_v turn the normal */
+} net_ready;
+
+SHARED_FUNCTION net_ready net_ready_of(const STATE stored *sample, net_way way, int bends)
+{
+	net_ready ready;
+	ready.forms = net_forms_of(sample, way, bends);
+	ready.fourth = SQUARE_ROOT(ready.forms.root);
+	ready.inverse_u = SQUARE_ROOT(ready.forms.metric.vv * ready.forms.by_square);
+	ready.inverse_v = SQUARE_ROOT(ready.forms.metric.uu * ready.forms.by_square);
+	return ready;
+}
+
 /* What y_u and y_v change. How near they are probed: as far as turns the normal by about NET_BLOCK_NEAR. */
-SHARED_FUNCTION void net_probe_near(const STATE stored *sample, const net_forms *s, real fourth,
-                                    real weight, STATE stored *to)
+SHARED_FUNCTION void net_probe_near(const STATE stored *sample, const net_ready *ready, real weight,
+                                    STATE stored *to)
 {
 	const real two = SPREAD(LITERAL(2.0));
+	const net_forms *s = &ready->forms;
+	const real fourth = ready->fourth;
+	const real inverse_u = ready->inverse_u, inverse_v = ready->inverse_v;
 	const real near = SPREAD(NET_BLOCK_NEAR) * s->metric.square;
 	const real x_u = AT(sample[NET_BLOCK_XU]), x_v = AT(sample[NET_BLOCK_XV]);
 	const real z_u = AT(sample[NET_BLOCK_ZU]), z_v = AT(sample[NET_BLOCK_ZV]);
 	const real n_x = s->metric.n_x, n_z = s->metric.n_z;
-	const real inverse_u = SQUARE_ROOT(s->metric.vv * s->by_square);
-	const real inverse_v = SQUARE_ROOT(s->metric.uu * s->by_square);
 	const real by_u = near * (s->by_vv * inverse_u);
 	const real by_v = near * (s->by_uu * inverse_v);
 	const real by_half = SPREAD(LITERAL(0.5) / NET_BLOCK_NEAR) * weight;
@@ -228,27 +247,31 @@ SHARED_FUNCTION void net_probe_far(const net_forms *s, real fourth, real weight,
 		                           n == 2 ? n_y : zero));
 }
 
-/* All that is probed at a sample; what y_u and y_v change counts `part`. */
-SHARED_FUNCTION void net_probe(const STATE stored *sample, const net_forms *s, real part,
+/* All that is probed at a sample; what y_u and y_v change counts `part`. Returns the energy there. */
+SHARED_FUNCTION real net_probe(const STATE stored *sample, const net_ready *ready, real part,
                                STATE stored *to)
 {
 	const real half_of = SPREAD(LITERAL(0.5));
+	const net_forms *s = &ready->forms;
 	const real weight = AT(sample[NET_BLOCK_ROOT]);
-	const real fourth = SQUARE_ROOT(s->root);
-	const net_bends here = net_bends_of(fourth, s->root, s->by_square, s->metric.uu, s->by_uu,
-	                                    s->metric.uv, s->e, s->f, s->g);
-	net_probe_near(sample, s, fourth, weight * part, to);
-	net_probe_far(s, fourth, weight, to);
+	const net_bends here = net_bends_of(ready->fourth, s->root, s->by_square, s->metric.uu,
+	                                    s->by_uu, s->metric.uv, s->e, s->f, s->g);
+	net_probe_near(sample, ready, weight * part, to);
+	net_probe_far(s, ready->fourth, weight, to);
 	const real last = weight * (s->bends ? here.last : half_of * (here.first + here.last));
+	const real middle = weight * here.middle, first = weight * here.first;
 	UNROLLED
 	for (int n = 0; n < 5; n++) {
 		real slope = last * AT(to[NET_BLOCK_LAST + n]);
 		if (s->bends && n < 4)
-			slope = FUSED(weight * here.middle, AT(to[NET_BLOCK_MIDDLE + n]), slope);
+			slope = FUSED(middle, AT(to[NET_BLOCK_MIDDLE + n]), slope);
 		if (s->bends && n < 3)
-			slope = FUSED(weight * here.first, AT(to[NET_BLOCK_FIRST + n]), slope);
+			slope = FUSED(first, AT(to[NET_BLOCK_FIRST + n]), slope);
 		AT(to[NET_BLOCK_SLOPE + n]) = slope;
 	}
+	const real squares = s->bends ? FUSED(first, first, FUSED(middle, middle, last * last))
+	                              : last * last;
+	return half_of * squares;
 }
 
 #endif

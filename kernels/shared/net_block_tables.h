@@ -6,13 +6,12 @@
 #include "block_band.h"
 #include "net_block_lines.h"
 
-/* What the columns that a sample sees change of its numbers, by their values and derivatives along v: y_u and y_uu
- * are of the value, y_v and y_uv of the first derivative, y_vv of the second. */
-SHARED_FUNCTION void net_change_columns(const block_state *s, const net_line *at, int sample,
-                                        STATE stored *to)
+/* What the columns that a sample sees change of its numbers, as probed, by their values and derivatives along v: y_u and
+ * y_uu are of the value, y_v and y_uv of the first derivative, y_vv of the second. */
+SHARED_FUNCTION void net_change_columns(const block_state *s, const STATE stored *probed,
+                                        int sample, STATE stored *to)
 {
 	GLOBAL const scalar *table = s->table_u + sample * NET_TABLE_SIZE(NET_ORDER_U);
-	const STATE stored *probed = at->probes + sample * NET_BLOCK_PROBED;
 	const STATE stored *last = probed + NET_BLOCK_LAST;
 	const STATE stored *middle = probed + NET_BLOCK_MIDDLE;
 	const STATE stored *first = probed + NET_BLOCK_FIRST;
@@ -35,78 +34,120 @@ SHARED_FUNCTION void net_change_columns(const block_state *s, const net_line *at
 	}
 }
 
-/* Adds a sample to a pair of columns: products of what both change. */
+/* Adds a sample to a pair of columns: products of what both change, those of LAST to `sums`, of the others to `bent`,
+ * whose rows lie `apart`. own: of a column with itself half of them tell. */
 SHARED_FUNCTION void net_add_pair(const block_state *s, const STATE stored *a,
-                                  const STATE stored *b, real close, real sums[9])
+                                  const STATE stored *b, int own, real close, real sums[9],
+                                  real *bent, int apart)
 {
 	(void)s;
 	UNROLLED
-	for (int n = 0; n < 9; n++)
-		sums[n] = FUSED(AT(a[NET_BLOCK_COLUMN_LAST + n / 3]), AT(b[NET_BLOCK_COLUMN_LAST + n % 3]),
-		                sums[n]);
+	for (int x = 0; x < 3; x++) {
+		UNROLLED
+		for (int y = own ? x : 0; y < 3; y++)
+			sums[3 * x + y] = FUSED(AT(a[NET_BLOCK_COLUMN_LAST + x]),
+			                        AT(b[NET_BLOCK_COLUMN_LAST + y]), sums[3 * x + y]);
+	}
+	sums[0] = FUSED(AT(a[NET_BLOCK_COLUMN_CLOSE]), close, sums[0]);
 	UNROLLED
 	for (int x = 0; x < (NET_BLOCK_BENDS ? 2 : 0); x++) {
 		UNROLLED
-		for (int y = 0; y < 2; y++) {
+		for (int y = own ? x : 0; y < 2; y++) {
 			const real sum = FUSED(AT(a[NET_BLOCK_COLUMN_MIDDLE + x]),
-			                       AT(b[NET_BLOCK_COLUMN_MIDDLE + y]), sums[3 * x + y]);
-			sums[3 * x + y] = FUSED(AT(a[NET_BLOCK_COLUMN_FIRST + x]),
-			                        AT(b[NET_BLOCK_COLUMN_FIRST + y]), sum);
+			                       AT(b[NET_BLOCK_COLUMN_MIDDLE + y]), bent[apart * x + y]);
+			bent[apart * x + y] = FUSED(AT(a[NET_BLOCK_COLUMN_FIRST + x]),
+			                            AT(b[NET_BLOCK_COLUMN_FIRST + y]), sum);
 		}
 	}
-	sums[0] = FUSED(AT(a[NET_BLOCK_COLUMN_CLOSE]), close, sums[0]);
 }
 
-/* Adds the samples of a span, from number i on, to all pairs of its columns. */
-SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int i)
+enum { NET_PAIRS_MOST = 2 }; /* side by side: what they share is loaded once */
+
+/* Adds the samples of a span, from number i on, to so many pairs of its columns from a and b on; those before number
+ * `known` have some already. */
+SHARED_FUNCTION void net_add_span(const block_state *s, const net_line *at, int i, int known, int a,
+                                  int b, int count, int own)
 {
-	GLOBAL const scalar *table = s->table_u + i * NET_TABLE_SIZE(NET_ORDER_U);
-	const int size = NET_ORDER_U * NET_BLOCK_COLUMN_SIZE;
-	STATE stored *pairs = at->pairs + s->first_u[i] * (NET_ORDER_U * 9);
-	ROLLED
-	for (int j = 0; j < NET_POINTS_U; j++)
-		net_change_columns(s, at, i + j, at->span + j * size);
+	const real zero = SPREAD(LITERAL(0.0));
+	GLOBAL const scalar *table = s->table_u + (i * NET_TABLE_SIZE(NET_ORDER_U) + b);
+	STATE stored *pairs = at->pairs + ((s->first_u[i] + a) * NET_ORDER_U + (b - a)) * 9;
+	real sums[NET_PAIRS_MOST][9];
+	real bent[4] = { zero, zero, zero, zero };
+	UNROLLED
+	for (int c = 0; c < count; c++) {
+		UNROLLED
+		for (int n = 0; n < 9; n++)
+			sums[c][n] = b + c < known ? AT(pairs[9 * c + n]) : zero;
+	}
+	UNROLLED
+	for (int j = 0; j < NET_POINTS_U; j++) {
+		const STATE stored *span = at->span + j * (NET_ORDER_U * NET_BLOCK_COLUMN_SIZE);
+		UNROLLED
+		for (int c = 0; c < count; c++)
+			net_add_pair(s, span + a * NET_BLOCK_COLUMN_SIZE,
+			             span + (b + c) * NET_BLOCK_COLUMN_SIZE, own,
+			             SPREAD(table[j * NET_TABLE_SIZE(NET_ORDER_U) + c]), sums[c],
+			             count == 1 ? bent : sums[c], count == 1 ? 2 : 3);
+	}
+	/* A pair alone has its sums in two parts, since a sum waits for each number added to it. */
+	UNROLLED
+	for (int n = 0; n < (NET_BLOCK_BENDS && count == 1 ? 4 : 0); n++)
+		sums[0][n / 2 * 3 + n % 2] += bent[n];
+	UNROLLED
+	for (int c = 0; c < count; c++) {
+		UNROLLED
+		for (int n = 0; n < 9; n++)
+			AT(pairs[9 * c + n]) = sums[c][own && n % 3 < n / 3 ? 3 * (n % 3) + n / 3 : n];
+	}
+}
+
+/* Adds them to all pairs. */
+SHARED_FUNCTION void net_add_pairs(const block_state *s, const net_line *at, int i, int known)
+{
 	ROLLED
 	for (int a = 0; a < NET_ORDER_U; a++) {
+		int b = a + 1;
+		net_add_span(s, at, i, known, a, a, 1, 1);
 		ROLLED
-		for (int b = a; b < NET_ORDER_U; b++) {
-			STATE stored *pair = pairs + (a * NET_ORDER_U + (b - a)) * 9;
-			real sums[9];
-			UNROLLED
-			for (int n = 0; n < 9; n++)
-				sums[n] = AT(pair[n]);
-			UNROLLED
-			for (int j = 0; j < NET_POINTS_U; j++) {
-				const STATE stored *span = at->span + j * size;
-				net_add_pair(s, span + a * NET_BLOCK_COLUMN_SIZE, span + b * NET_BLOCK_COLUMN_SIZE,
-				             SPREAD(table[j * NET_TABLE_SIZE(NET_ORDER_U) + b]), sums);
-			}
-			UNROLLED
-			for (int n = 0; n < 9; n++)
-				AT(pair[n]) = sums[n];
-		}
+		for (; b + 1 < NET_ORDER_U; b += 2)
+			net_add_span(s, at, i, known, a, b, 2, 0);
+		if (b < NET_ORDER_U)
+			net_add_span(s, at, i, known, a, b, 1, 0);
 	}
 }
 
-/* Slopes along the columns of a span, those along poles being their values and derivatives by v. */
-SHARED_FUNCTION void net_add_slopes(const block_state *s, const net_line *at, int i)
+/* Slopes along the columns that a sample sees, those along poles being their values and derivatives by v. */
+SHARED_FUNCTION void net_add_slopes(const block_state *s, const STATE stored *probed, int sample,
+                                    STATE stored *slopes)
 {
-	STATE stored *slopes = at->slopes + 3 * s->first_u[i];
+	GLOBAL const scalar *table = s->table_u + sample * NET_TABLE_SIZE(NET_ORDER_U);
+	const STATE stored *along = probed + NET_BLOCK_SLOPE;
+	UNROLLED
+	for (int a = 0; a < NET_ORDER_U; a++) {
+		const real t0 = SPREAD(table[a]);
+		const real t1 = SPREAD(table[NET_ORDER_U + a]);
+		const real t2 = SPREAD(table[2 * NET_ORDER_U + a]);
+		STATE stored *slope = slopes + 3 * a;
+		AT(slope[0]) = FUSED(t0, AT(probed[NET_BLOCK_CLOSE_SLOPE]),
+		                     FUSED(t1, AT(along[0]), FUSED(t2, AT(along[2]), AT(slope[0]))));
+		AT(slope[1]) = FUSED(t0, AT(along[1]), FUSED(t1, AT(along[3]), AT(slope[1])));
+		AT(slope[2]) = FUSED(t0, AT(along[4]), AT(slope[2]));
+	}
+}
+
+/* Pairs of columns that no span of a line sees together, where columns from number `first` on come after those before
+ * `end`. */
+SHARED_FUNCTION void net_part_columns(const block_state *s, const net_line *at, int first, int end)
+{
+	const real zero = SPREAD(LITERAL(0.0));
+	(void)s;
 	ROLLED
-	for (int j = i; j < i + NET_POINTS_U; j++) {
-		GLOBAL const scalar *table = s->table_u + j * NET_TABLE_SIZE(NET_ORDER_U);
-		const STATE stored *probed = at->probes + j * NET_BLOCK_PROBED;
-		const STATE stored *along = probed + NET_BLOCK_SLOPE;
-		UNROLLED
-		for (int a = 0; a < NET_ORDER_U; a++) {
-			const real t0 = SPREAD(table[a]);
-			const real t1 = SPREAD(table[NET_ORDER_U + a]);
-			const real t2 = SPREAD(table[2 * NET_ORDER_U + a]);
-			STATE stored *slope = slopes + 3 * a;
-			AT(slope[0]) = FUSED(t0, AT(probed[NET_BLOCK_CLOSE_SLOPE]),
-			                     FUSED(t1, AT(along[0]), FUSED(t2, AT(along[2]), AT(slope[0]))));
-			AT(slope[1]) = FUSED(t0, AT(along[1]), FUSED(t1, AT(along[3]), AT(slope[1])));
-			AT(slope[2]) = FUSED(t0, AT(along[4]), AT(slope[2]));
+	for (int b = end; b < first + NET_ORDER_U; b++) {
+		ROLLED
+		for (int a = b - NET_ORDER_U + 1 > 0 ? b - NET_ORDER_U + 1 : 0; a < first; a++) {
+			STATE stored *pair = at->pairs + (a * NET_ORDER_U + (b - a)) * 9;
+			for (int n = 0; n < 9; n++)
+				AT(pair[n]) = zero;
 		}
 	}
 }
@@ -114,16 +155,34 @@ SHARED_FUNCTION void net_add_slopes(const block_state *s, const net_line *at, in
 /* Probes a line and sums along it. Returns its part of the objective. */
 SHARED_FUNCTION real net_work_line(const block_state *s, int line, real part)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	const net_line at = net_line_of(s, line % s->slots);
-	const real sum = net_probe_line(s, &at, line, part);
+	real sum = SPREAD(LITERAL(0.0));
+	int end = 0; /* of the columns that samples before have seen */
+	net_collapse_line(s, block_array(s, BLOCK_INPUT_START), line, at.columns);
 	ROLLED
-	for (int n = 0; n < (3 + 9 * NET_ORDER_U) * s->lines; n++)
-		AT(at.slopes[n]) = zero; /* and the pairs, which follow them */
+	for (int n = 0; n < 3 * s->lines; n++)
+		AT(at.slopes[n]) = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int i = 0; i < s->count_u; i += NET_POINTS_U) {
-		net_add_slopes(s, &at, i);
-		net_add_pairs(s, &at, i);
+		const int first = s->first_u[i];
+		net_ready all[NET_POINTS_MOST];
+		ROLLED
+		for (int j = 0; j < NET_POINTS_U; j++)
+			all[j] = net_ready_of(net_sample(s, line, i + j), net_way_at(s, at.columns, i + j),
+			                      NET_BLOCK_BENDS);
+		ROLLED
+		for (int j = 0; j < NET_POINTS_U; j++) {
+			STATE stored *probed = at.probes + j * NET_BLOCK_PROBED;
+			net_ready ready = all[j];
+			ready.forms.bends = NET_BLOCK_BENDS; /* known beforehand */
+			sum += net_probe_sample(s, line, i + j, &ready, part, probed);
+			net_add_slopes(s, probed, i + j, at.slopes + 3 * first);
+			net_change_columns(s, probed, i + j,
+			                   at.span + j * (NET_ORDER_U * NET_BLOCK_COLUMN_SIZE));
+		}
+		net_part_columns(s, &at, first, end);
+		net_add_pairs(s, &at, i, end - first);
+		end = first + NET_ORDER_U;
 	}
 	return sum;
 }
@@ -251,15 +310,6 @@ SHARED_FUNCTION block_band net_band(const block_state *s)
 	return table;
 }
 
-SHARED_FUNCTION void net_factor(const block_state *s)
-{
-	const block_band table = net_band(s);
-	ROLLED
-	for (int n = 0; n < table.count; n++)
-		block_band_eliminate(table, n, table.count,
-		                     block_band_inverse(AT(table.rows[n * table.band]), AT(table.way[n])));
-}
-
 /* Probes all samples and sums up to the slopes along the poles and their table. */
 SHARED_FUNCTION void net_gather(const block_state *s, real part)
 {
@@ -306,7 +356,7 @@ SHARED_FUNCTION real block_explore(const block_state *s, real far, real part, in
 		net_settle_line(s, line, turn, stay);
 	WAIT;
 	if (WORK_ITEM == 0)
-		net_factor(s);
+		block_band_factor(net_band(s));
 	WAIT;
 	return net_terms_total(s);
 }
