@@ -87,7 +87,8 @@ SHARED_FUNCTION node_tangent tangent_of(int kind, real y_x, real y_z)
 	t.square = t.along + q2;
 	t.inverse = one / t.square;
 	t.root = SQUARE_ROOT(t.inverse);
-	t.twice_product = SPREAD(LITERAL(2.0)) * (y_x * y_z);
+	const real product = y_x * y_z;
+	t.twice_product = product + product;
 	t.first_inverse = t.inverse;
 	t.skew = t.inverse;
 	if (kind == GRID_BENDING_WEIGHTED || kind == GRID_MEAN) {
@@ -101,11 +102,10 @@ SHARED_FUNCTION node_tangent tangent_of(int kind, real y_x, real y_z)
  * sqrt(1 + y_x^2 + y_z^2), written with one division and one root. */
 SHARED_FUNCTION real bending_of(node_tangent t, real y_xx, real y_xz, real y_zz)
 {
-	const real two = SPREAD(LITERAL(2.0));
 	const real across = PRODUCT_AND(-t.twice_product, y_xz, t.across * y_xx);
 	const real mean = PRODUCT_AND(t.along, y_zz, across);
 	const real gauss = PRODUCT_AND(y_xx, y_zz, -(y_xz * y_xz));
-	const real sum = PRODUCT_AND(mean * mean, t.inverse, -(two * gauss));
+	const real sum = PRODUCT_AND(mean * mean, t.inverse, -(gauss + gauss));
 	return (sum * t.inverse) * t.root;
 }
 

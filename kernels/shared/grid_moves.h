@@ -4,8 +4,8 @@
  * The derivatives at y are kept for every node. A single offset changes those of its 3 x 3 nodes by so much a
  * step, at the corners y_xz alone. A thin hat, one of offsets of one station, changes y_x, y_xx and y_xz alone
  * beside it. Both probe without moving y. A wider hat is moved in place, from where its nodes were, which is
- * kept in trial: no other direction of its colour reads them; its derivatives are taken anew. The variation of
- * curvature keeps none, and all its hats are of that kind. The terms at y are kept, so that nothing need be
+ * kept in trial: no other direction of its colour reads them; derivatives are made anew when all of these are done. The
+ * variation of curvature keeps none, and all its hats are of that kind. The terms at y are kept, so that nothing need be
  * worked where the step is 0; single offsets come last in an iteration and leave them behind. */
 #ifndef BATTEN_SHARED_GRID_MOVES_H
 #define BATTEN_SHARED_GRID_MOVES_H
@@ -101,37 +101,27 @@ SHARED_FUNCTION row_slopes row_of(const search_state *s, const scalar *x, int no
 	return row;
 }
 
-/* The objective over a station's nodes first_k .. last_k. Where it `keeps`, terms and derivatives of the lanes
- * that `moved` are. */
+/* The objective over a station's nodes first_k .. last_k; its terms go into `terms`. */
 SHARED_FUNCTION real column_third_objective(const search_state *s, int station, int first_k,
-                                            int last_k, int keeps, mask moved)
+                                            int last_k, STATE stored *terms)
 {
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int k = first_k; k <= last_k; k++) {
 		const int node = node_of(s, station, k);
 		const real term = node_energy(AT(s->bend[node]), third_fairness(s, s->y, station, k));
-		if (keeps)
-			AT(s->terms[node]) = CHOOSE(moved, term, AT(s->terms[node]));
+		AT(terms[node]) = term;
 		sum += term + node_own(s, node, AT(s->y[node]));
 	}
 	return sum;
 }
 
-SHARED_FUNCTION void slopes_keep(STATE stored_slopes *kept, node_slopes d, mask moved)
-{
-	AT(kept->y_x) = CHOOSE(moved, d.y_x, AT(kept->y_x));
-	AT(kept->y_z) = CHOOSE(moved, d.y_z, AT(kept->y_z));
-	AT(kept->y_xx) = CHOOSE(moved, d.y_xx, AT(kept->y_xx));
-	AT(kept->y_xz) = CHOOSE(moved, d.y_xz, AT(kept->y_xz));
-	AT(kept->y_zz) = CHOOSE(moved, d.y_zz, AT(kept->y_zz));
-}
-
+/* The same for all kinds. Where it `keeps`, derivatives too. */
 SHARED_FUNCTION real column_objective(const search_state *s, int station, int first_k, int last_k,
-                                      int keeps, mask moved)
+                                      STATE stored *terms, int keeps)
 {
 	if (GRID_FAIRNESS == GRID_VARIATION)
-		return column_third_objective(s, station, first_k, last_k, keeps, moved);
+		return column_third_objective(s, station, first_k, last_k, terms);
 	scalar x[STENCIL_SIZE];
 	real sum = SPREAD(LITERAL(0.0));
 	UNROLLED
@@ -151,10 +141,9 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 			                    stencil_second(z[2], z[3], below.here, here.here, above.here) };
 		const real term = node_energy(AT(s->bend[node]),
 		                              node_fairness(GRID_FAIRNESS, s->weights, d));
-		if (keeps) {
-			AT(s->terms[node]) = CHOOSE(moved, term, AT(s->terms[node]));
-			slopes_keep(s->slopes + node, d, moved);
-		}
+		AT(terms[node]) = term;
+		if (keeps)
+			slopes_put(s->slopes + node, d);
 		sum += term + node_own(s, node, here.here);
 		below = here;
 		here = above;
@@ -162,13 +151,12 @@ SHARED_FUNCTION real column_objective(const search_state *s, int station, int fi
 	return sum;
 }
 
-/* Terms and derivatives at y of all nodes, to begin with. */
-SHARED_FUNCTION void grid_terms_begin(const search_state *s)
+/* Terms and derivatives at y of the nodes of so many stations, all or none. */
+SHARED_FUNCTION void grid_terms_begin(const search_state *s, int stations)
 {
-	const real zero = SPREAD(LITERAL(0.0));
 	ROLLED
-	for (int i = WORK_ITEM; i < s->stations; i += WORK_ITEMS)
-		(void)column_objective(s, i, 0, s->waterlines - 1, 1, zero == zero);
+	for (int i = WORK_ITEM; i < stations; i += WORK_ITEMS)
+		(void)column_objective(s, i, 0, s->waterlines - 1, s->terms, 1);
 	WAIT;
 }
 
@@ -209,15 +197,27 @@ SHARED_FUNCTION real hat_objective_before(const search_state *s, const hat_windo
 	return sum;
 }
 
-/* The same at y. */
-SHARED_FUNCTION real hat_objective(const search_state *s, const hat_window *w, int keeps,
-                                   mask moved)
+/* The same at y; the terms into s->found. */
+SHARED_FUNCTION real hat_objective(const search_state *s, const hat_window *w)
 {
 	real sum = SPREAD(LITERAL(0.0));
 	ROLLED
 	for (int i = w->first_i; i <= w->last_i; i++)
-		sum += column_objective(s, i, w->first_k, w->last_k, keeps, moved);
+		sum += column_objective(s, i, w->first_k, w->last_k, s->found, 0);
 	return sum;
+}
+
+/* Keeps the terms that were found, in the lanes that moved. */
+SHARED_FUNCTION void hat_terms_take(const search_state *s, const hat_window *w, mask moved)
+{
+	ROLLED
+	for (int i = w->first_i; i <= w->last_i; i++) {
+		const int first = node_of(s, i, w->first_k);
+		const int last = node_of(s, i, w->last_k);
+		ROLLED
+		for (int node = first; node <= last; node += s->stride)
+			AT(s->terms[node]) = CHOOSE(moved, AT(s->found[node]), AT(s->terms[node]));
+	}
 }
 
 /* What a step of one offset does to the derivatives along one direction of the nodes before, at and behind

@@ -13,6 +13,11 @@ SHARED_FUNCTION void search_levels(search_state *s, int level_count, GLOBAL cons
 	s->level_count = level_count;
 	s->colour_count = level_count * GRID_COLOURS(GRID_FAIRNESS);
 	s->wide_colours = search_wide_levels(levels, level_count) * GRID_COLOURS(GRID_FAIRNESS);
+	s->hat_colours = 0;
+	for (int l = 0; l < level_count; l++)
+		if (GRID_FAIRNESS != GRID_VARIATION &&
+		    levels[l * SEARCH_LEVEL_SIZE + SEARCH_LEVEL_WIDTH_X] > 1)
+			s->hat_colours += GRID_COLOURS(GRID_FAIRNESS);
 	s->levels = levels;
 	s->centres = centres;
 }
@@ -92,22 +97,26 @@ SHARED_FUNCTION real hat_explore(const search_state *s, search_move *move, real 
 	const real before = hat_objective_before(s, &window, window.first_i, window.last_i);
 	(void)search_trial_next(&trial, 0, h, before, extra);
 	move->step = trial.next;
+	int again = 1;
 	ROLLED
 	for (int turn = 1;; turn++) {
-		const int taken = turn > 3;
 		hat_place(s, move, turn > 1);
-		if (taken && !ANY(move->step != zero))
-			break;
-		const real sum = hat_objective(s, &window, taken, move->step != zero);
-		if (taken)
-			break;
+		if (!again)
+			break; /* the terms of the last probe are those of the step taken */
+		const real sum = hat_objective(s, &window);
+		if (turn > 3)
+			break; /* the step taken, worked again */
 		if (search_trial_next(&trial, turn, h, sum, extra)) {
 			move->step = trial.next;
 			continue;
 		}
+		const real probed = move->step;
 		move->step = search_trial_end(&trial);
+		again = ANY((move->step != zero) & (move->step != probed));
 		turn = 3;
 	}
+	if (ANY(move->step != zero))
+		hat_terms_take(s, &window, move->step != zero);
 	return move->step;
 }
 
@@ -146,7 +155,14 @@ SHARED_FUNCTION real direction_explore(const search_state *s, int colour, int di
 
 SHARED_FUNCTION void sweeps_begin(const search_state *s)
 {
-	grid_terms_begin(s);
+	grid_terms_begin(s, s->stations);
+}
+
+/* Wider hats, the first in an iteration, read no derivatives and leave them as they were: those at y are made
+ * where thin ones begin. */
+SHARED_FUNCTION void colour_end(const search_state *s, int colour)
+{
+	grid_terms_begin(s, colour + 1 == s->hat_colours ? s->stations : 0);
 }
 
 #define SEARCH_WAYS GRID_WAYS

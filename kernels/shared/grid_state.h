@@ -25,6 +25,7 @@ typedef struct search_state {
 	STATE stored_slopes *slopes; /* derivatives at y, kept from move to move */
 	GLOBAL const stored *lower, *upper, *target, *bend, *close;
 	int level_count, colour_count, wide_colours; /* the rest is for those that work along hats */
+	int hat_colours; /* of hats wider than a station, the first; of GRID_VARIATION, which keeps no derivatives, 0 */
 	GLOBAL const int *levels, *centres;
 	STATE stored *lines;    /* one sum a waterline */
 	STATE stored *gathered; /* two numbers a work-item */

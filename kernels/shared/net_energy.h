@@ -282,6 +282,13 @@ SHARED_FUNCTION void sweeps_begin(const search_state *s)
 	WAIT;
 }
 
+/* Every move keeps what it changes. */
+SHARED_FUNCTION void colour_end(const search_state *s, int colour)
+{
+	(void)s;
+	(void)colour;
+}
+
 #include "net_moves.h"
 
 #endif

@@ -12,6 +12,8 @@
  *                      returns the length of the step taken
  *   void colour_range(const search_state *, int colour, int *first, int *end)
  *                      directions of a colour, colours in the order they are worked
+ *   void colour_end(const search_state *, int colour)
+ *                      what is to be done behind a colour
  *   real whole_objective(const search_state *)
  *                      at trial, the same in every work-item */
 #ifndef BATTEN_SHARED_SEARCH_SWEEP_H
@@ -37,6 +39,7 @@ SHARED_FUNCTION real search_sweep(const search_state *s, int first_colour, int e
 			longest = CHOOSE(length > longest, length, longest);
 		}
 		WAIT;
+		colour_end(s, colour);
 	}
 	return longest;
 }
