@@ -19,7 +19,7 @@ moved()
 # --max-distance, in percent of the half-beam and in units of length.
 for pair in 1%:0.01*h 0.25%:0.0025*h 0.5mm:0.0005 0.002m:0.002 0.01ft:0.003048 0mm:0 0%:0; do
 	distance=${pair%:*}
-	expect 0 fair "$hull" $weights --max-distance $distance --out out
+	expect 0 fair "$hull" $weights --max-distance $distance --device reference --out out
 	most=$(moved out)
 	# With these weights some offset goes as far as it may.
 	holds "--max-distance $distance" \

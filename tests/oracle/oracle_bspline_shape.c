@@ -28,9 +28,9 @@ static void eigen(long double a, long double b, long double c, long double value
 	long double tangent = 0;
 	if (fabsl(b) > 0) {
 		long double cotangent = (c - a) / (2 * b);
-		tangent = copysignl(1, cotangent) / (fabsl(cotangent) + hypotl(1, cotangent));
+		tangent = copysignl(1, cotangent) / (fabsl(cotangent) + sqrtl(1 + cotangent * cotangent));
 	}
-	long double cosine = 1 / hypotl(1, tangent), sine = tangent * cosine;
+	long double cosine = 1 / sqrtl(1 + tangent * tangent), sine = tangent * cosine;
 	value[0] = a - tangent * b;
 	value[1] = c + tangent * b;
 	axis[0] = cosine;
