@@ -185,8 +185,8 @@ void net_pack_take(const net_plan *plan, size_t which, size_t pole, double way)
 	const size_t leader = plan->leader[pole];
 	const double from = net_start_of(item, leader) - item->target_y_m[leader];
 	const double moved = way - net_pack_rounded(plan, from);
-	plan->y_m[which * net_plan_poles(plan) + pole] = fmin(
-		fmax(net_start_of(item, pole) + moved, item->lower_y_m[pole]), item->upper_y_m[pole]);
+	plan->y_m[which * net_plan_poles(plan) + pole] = net_within(
+		net_start_of(item, pole) + moved, item->lower_y_m[pole], item->upper_y_m[pole]);
 }
 
 void net_unpack(const net_plan *plan, size_t which, size_t lane, size_t lanes, const void *y,

@@ -21,7 +21,8 @@ size_t net_plan_sample_size(const net_plan *plan)
 
 double net_start_of(const net_item *item, size_t pole)
 {
-	return fmin(fmax(item->poles_m[3 * pole + 1], item->lower_y_m[pole]), item->upper_y_m[pole]);
+	const double y = item->poles_m[3 * pole + 1];
+	return net_within(y, item->lower_y_m[pole], item->upper_y_m[pole]);
 }
 
 void net_rooms_of(const net_plan *plan, const net_item *item, net_room *rooms)
@@ -32,8 +33,10 @@ void net_rooms_of(const net_plan *plan, const net_item *item, net_room *rooms)
 	for (size_t n = 0; n < poles; n++) {
 		const double start = net_start_of(item, n);
 		net_room *room = &rooms[plan->leader[n]];
-		room->down = fmax(room->down, item->lower_y_m[n] - start);
-		room->up = fmin(room->up, item->upper_y_m[n] - start);
+		const double down = item->lower_y_m[n] - start;
+		const double up = item->upper_y_m[n] - start;
+		room->down = down > room->down ? down : room->down;
+		room->up = up < room->up ? up : room->up;
 	}
 	for (size_t n = 0; n < poles; n++)
 		rooms[n] = rooms[plan->leader[n]];

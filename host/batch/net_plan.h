@@ -68,6 +68,13 @@ void net_rooms_of(const net_plan *plan, const net_item *item, net_room *rooms);
 /* Directions of the plan that can move at least one pole with these rooms. */
 uint64_t net_directions_moving(const net_plan *plan, const net_room *rooms);
 
+/* y kept within bounds. Every pole of a batch asks several times: no call of fmin() and fmax(). */
+static inline double net_within(double y, double lower, double upper)
+{
+	const double above = y > lower ? y : lower;
+	return above < upper ? above : upper;
+}
+
 /* The start of a pole, moved into its box. */
 double net_start_of(const net_item *item, size_t pole);
 
