@@ -2,8 +2,8 @@
  *
  * A work-group works a range of the searches, BATTEN_LANES of them at a time, one a lane of `real`; its
  * work-items share the lines of the grid. On a CPU: many lanes, one work-item. On a GPU: several searches abreast
- * (dialect.h), many work-items each. Every line and every sum is worked in one fixed order by one work-item, so the shape does
- * not change a bit of the result; the C path is the same source.
+ * (dialect.h), many work-items each. Every line and every sum is worked in one fixed order by one work-item, so
+ * the shape does not change a bit of the result; the C path is the same source.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, STATE (local, or global for grids whose state does
  * not fit local memory), BLOCK_ANALYTIC (1: slopes of the integrand by formula, not by probes). */

@@ -2,8 +2,8 @@
  *
  * A work-group works a range of the searches, BATTEN_LANES of them at a time, one a lane of `real`; its work-items
  * share the lines of samples, then the columns of the net. On a CPU: many lanes, one work-item. On a GPU: several
- * searches abreast (dialect.h), many work-items each. Every line and every sum is worked in one fixed order by one work-item, so the shape does not
- * change a bit of the result; the C path is the same source.
+ * searches abreast (dialect.h), many work-items each. Every line and every sum is worked in one fixed order by one
+ * work-item, so the shape does not change a bit of the result; the C path is the same source.
  *
  * Defined by the host: BATTEN_DOUBLE, BATTEN_LANES, NET_FAIRNESS, NET_ORDER_U, NET_ORDER_V, NET_POINTS_U,
  * NET_POINTS_V; bending of a bicubic net where they are not. */
@@ -31,9 +31,10 @@
 /* The course last: it calls these. */
 #include "shared/block_lanes.h"
 
-/* shape: NET_BLOCK_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE a sample along u, then along v. inputs, settings, outcomes: as block_memory has them. Group g works searches
- * g * share up to count, and so does lane g of all where searches stand abreast; turns[g]: how many iterations its lanes went
- * through. room: NET_BLOCK_STATE_NUMBERS a search. */
+/* shape: NET_BLOCK_SHAPE_SIZE numbers. tables: NET_TABLE_SIZE a sample along u, then along v. inputs, settings,
+ * outcomes: as block_memory has them. Group g works searches g * share up to count, and so does lane g of all where
+ * searches stand abreast; turns[g]: how many iterations its lanes went through. room: NET_BLOCK_STATE_NUMBERS a
+ * search. */
 kernel void net_block(global const int *shape, global const int *first_u, global const int *first_v,
                       global const int *follower, global const scalar *tables,
                       global const scalar *inputs, global const scalar *settings,

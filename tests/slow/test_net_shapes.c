@@ -33,7 +33,7 @@ static void run(const net_case *c, const net_shape *shape, int device, double *y
 	options.search.precision = shape->precision;
 	options.search.lanes = shape->lanes;
 	options.search.work_group = shape->work_group;
-	options.search.iteration_limit = 5; /* the pattern move remembers three */
+	options.search.iteration_limit = 8;
 	options.search.algorithm = shape->algorithm;
 	for (int p = 0; p < COUNT; p++)
 		problems[p] = net_case_problem(c, 1.0, pow(10.0, 1.0 + 0.5 * p));

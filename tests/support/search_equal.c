@@ -31,14 +31,14 @@ void search_equal_compare(const search_case *c, const double *y,
 	assert_memory_equal(y, known_y, EQUAL_COUNT * c->nodes * sizeof *y);
 }
 
-/* The textbook search takes thousands of sweeps to its last step, |K| and the variation of curvature hundreds of
+/* The textbook search takes thousands of sweeps to its last step, the variation of curvature hundreds of
  * iterations: some will do. */
 static void set_options(const search_shape *shape, batten_search_options *options)
 {
 	options->algorithm = shape->textbook ? BATTEN_ALGORITHM_TEXTBOOK : BATTEN_ALGORITHM_MULTILEVEL;
 	if (shape->textbook)
-		options->iteration_limit = 4;
-	else if (shape->fairness == GRID_GAUSS || shape->fairness == GRID_VARIATION)
+		options->iteration_limit = 8;
+	else if (shape->fairness == GRID_VARIATION)
 		options->iteration_limit = 16;
 	options->fairness = search_fairness_of(shape->fairness);
 	if (shape->fairness != GRID_BENDING && shape->fairness != GRID_VARIATION)
